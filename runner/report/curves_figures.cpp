@@ -169,15 +169,11 @@ std::map<std::pair<std::string, std::string>, std::size_t> series_numbers(const 
   return numbers;
 }
 
-constexpr std::size_t most_points = 5000;  ///< packings, of which 100,000 make a page of 17 MB
-
 /// Measured packings, evenly spread over all.
 std::vector<std::reference_wrapper<const Row>> points_of(const std::vector<Row>& rows) {
-  std::vector<std::reference_wrapper<const Row>> all, chosen;
+  std::vector<std::reference_wrapper<const Row>> all;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(all), is_measured);
-  const std::size_t count = std::min(all.size(), most_points);
-  for (std::size_t k = 0; k < count; ++k) chosen.push_back(all[k * all.size() / count]);
-  return chosen;
+  return evenly_spread(all, most_points);
 }
 
 // Numbers of what is drawn beside the series of the key.

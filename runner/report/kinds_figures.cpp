@@ -131,13 +131,13 @@ std::string tics_of_errors(const Range& shown) {
 }  // namespace
 
 Figure contacts_figure(const Axes& axes) {
-  const Axes drawn = of_kinds(axes);
+  const Axes all = of_kinds(axes), drawn = thinned(all, most_points / (2 * kind_names.size()));
   Figure figure{.name = "contacts",
                 .title = "Kinds of contact",
                 .caption =
                     "Shares of the force-bearing contacts between polyhedra, and of the "
                     "force that they carry; bars are standard errors."};
-  figure.caption += left_out_text(drawn, figure.name);
+  figure.caption += left_out_text(drawn, figure.name) + thinned_text(drawn, all);
   figure.tables = {{"contacts.csv", kinds_csv(drawn)}};
   if (shown_series(axes).empty()) return undrawn(std::move(figure), "no packing has settled");
   if (drawn.series.empty()) return undrawn(std::move(figure), "no grains press on each other");

@@ -118,6 +118,15 @@ std::vector<FittedSeries> fitted(const Axes& axes, const std::vector<Family>& fa
   return all;
 }
 
+/// As many residuals of each line as its series has points.
+void thin_residuals(std::vector<FittedSeries>& all) {
+  for (FittedSeries& one : all) {
+    for (auto* fit : {&one.phi, &one.z}) {
+      if (*fit) (*fit)->points = evenly_spread((*fit)->points, one.series->groups.size());
+    }
+  }
+}
+
 /// Where packings without a gap between walls stand on the axis.
 std::string places_text(const Axes& axes) {
   const auto is_tube = [](const Series& series) { return series.groups.front()->job.box.is_tube; };
@@ -338,11 +347,13 @@ std::string fits_text(const std::vector<FittedSeries>& all) {
 
 Figure means_figure(const Axes& axes, const std::vector<Family>& families,
                     const std::vector<Comparison>& comparisons) {
+  const Axes drawn = thinned(axes, most_points / 2);
   Figure figure{.name = "means",
-                .title = is_over_width(axes) ? "What the walls cost"
-                                             : "Solid fraction and coordination number",
+                .title = is_over_width(drawn) ? "What the walls cost"
+                                              : "Solid fraction and coordination number",
                 .caption = "Means over the settled replicates; bars are their standard errors."};
-  const std::vector<FittedSeries> all = fitted(axes, families);
+  std::vector<FittedSeries> all = fitted(drawn, families);
+  if (!thinned_text(drawn, axes).empty()) thin_residuals(all);
   if (all.empty()) return undrawn(std::move(figure), "no packing has settled");
   const bool has_fits = std::any_of(all.begin(), all.end(), [](const FittedSeries& one) {
     return is_determined(one.phi) || is_determined(one.z);
@@ -356,15 +367,16 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
-  const std::vector<PublishedCurve> curves = curves_of(axes, comparisons);
+  const std::vector<PublishedCurve> curves = curves_of(drawn, comparisons);
   if (!curves.empty()) {
     figure.caption += " Dashed: published formulas.";
     figure.tables.emplace_back(published_table, curves_csv(curves));
   }
-  if (is_over_width(axes)) figure.caption += places_text(axes);
-  figure.caption += lacking_text(axes) + fits_text(all) + grey_series_text(axes);
-  figure.tables.insert(figure.tables.begin(), {points_table, points_csv(axes)});
-  figure.commands = means_commands(axes, figure, all, curves, has_fits);
+  if (is_over_width(drawn)) figure.caption += places_text(drawn);
+  figure.caption +=
+      lacking_text(drawn) + fits_text(all) + grey_series_text(drawn) + thinned_text(drawn, axes);
+  figure.tables.insert(figure.tables.begin(), {points_table, points_csv(drawn)});
+  figure.commands = means_commands(drawn, figure, all, curves, has_fits);
   return figure;
 }
 

@@ -93,10 +93,11 @@ Figure parameters_figure(const Axes& axes) {
                       " are drawn; all are in the folder's groups.csv.";
     parameters.resize(most_parameters);
   }
-  figure.caption += grey_series_text(axes);
+  const Axes drawn = thinned(axes, most_points / (2 * parameters.size()));
+  figure.caption += grey_series_text(drawn) + thinned_text(drawn, axes);
   figure.height = 120 + 230 * static_cast<int>(parameters.size());
-  figure.tables = {{parameters_table, parameters_csv(axes, parameters)}};
-  figure.commands = parameters_commands(axes, figure, parameters);
+  figure.tables = {{parameters_table, parameters_csv(drawn, parameters)}};
+  figure.commands = parameters_commands(drawn, figure, parameters);
   return figure;
 }
 

@@ -24,10 +24,7 @@ std::vector<const Group*> settled_groups(const Axes& axes) {
 std::vector<GroupWithCurves> spread_over(const std::vector<const Group*>& all, std::size_t most,
                                          const std::string& folder) {
   std::vector<GroupWithCurves> chosen;
-  const std::size_t count = std::min(most, all.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    chosen.emplace_back(*all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)], folder);
-  }
+  for (const Group* group : evenly_spread(all, most)) chosen.emplace_back(*group, folder);
   return chosen;
 }
 
@@ -74,6 +71,24 @@ std::string left_out_text(const Axes& axes, const std::string& name) {
   if (shown < most_series || shown == axes.series.size()) return "";
   return " " + cell(shown) + " of " + cell(axes.series.size()) + " series are shown; all are in " +
          name + ".csv.";
+}
+
+Axes thinned(const Axes& axes, std::size_t most) {
+  const std::size_t all = settled_groups(axes).size();
+  if (all <= most) return axes;
+  Axes drawn = axes;
+  for (Series& series : drawn.series) {
+    std::erase_if(series.groups, [](const Group* group) { return !has_settled(group); });
+    const std::size_t share = std::max<std::size_t>(series.groups.size() * most / all, 1);
+    series.groups = evenly_spread(series.groups, share);
+  }
+  std::erase_if(drawn.series, [](const Series& series) { return series.groups.empty(); });
+  drawn.series = evenly_spread(drawn.series, most);
+  return drawn;
+}
+
+std::string thinned_text(const Axes& drawn, const Axes& axes) {
+  return few_of_all_text(settled_groups(drawn).size(), axes);
 }
 
 std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most) {

@@ -1,6 +1,8 @@
 // Parts that the commands of several figures are made of.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +12,20 @@
 #include "runner/tables/fits.hpp"
 
 namespace grainsweep {
+
+/// At most `most` of these, evenly spread over all.
+template <class T>
+std::vector<T> evenly_spread(const std::vector<T>& all, std::size_t most) {
+  std::vector<T> chosen;
+  const std::size_t count = std::min(most, all.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
+  }
+  return chosen;
+}
+
+/// A figure draws so many points: 100,000 make a page of 17 MB.
+inline constexpr std::size_t most_points = 5000;
 
 /// The groups of all series, one series after the other.
 std::vector<const Group*> groups_on(const Axes& axes);
@@ -32,6 +48,13 @@ inline constexpr const char* other_series_style = "points lc rgb '#bbbbbb' pt 7 
 
 /// "12 of 40 series have marks of their own, the others are grey"; empty if all have.
 std::string grey_series_text(const Axes& axes);
+
+/// The axes with about `most` of their groups with a settled packing, evenly spread over each
+/// series; with all groups if no more of them have one.
+Axes thinned(const Axes& axes, std::size_t most);
+
+/// " 2500 of 9998 groups are shown."; empty if all of `axes` with a settled packing are `drawn`.
+std::string thinned_text(const Axes& drawn, const Axes& axes);
 
 /// Groups with a settled packing, at most `most` of them, evenly spread over all. Throws FileError.
 std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);

@@ -17,6 +17,7 @@
 #include "runner/report/gnuplot.hpp"
 #include "runner/report/page.hpp"
 #include "runner/report/picture.hpp"
+#include "runner/report/plots.hpp"
 #include "runner/report/sections.hpp"
 #include "runner/store/files.hpp"
 #include "runner/tables/closing_report.hpp"
@@ -51,16 +52,12 @@ std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<
     const Row*& first = first_of[{row.job.label, row.job.parameters.text()}];
     if (first == nullptr || (is_settled(row) && !is_settled(*first))) first = &row;
   }
-  std::vector<std::pair<const Group*, const Row*>> all, chosen;
+  std::vector<std::pair<const Group*, const Row*>> all;
   for (const Group& group : groups) {
     const auto first = first_of.find({group.job.label, group.job.parameters.text()});
     if (first != first_of.end()) all.emplace_back(&group, first->second);
   }
-  const std::size_t count = std::min(most_beds, all.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
-  }
-  return chosen;
+  return evenly_spread(all, most_beds);
 }
 
 /// The beds that have room in the page; empty if none is stored. Appends to `missing`.

@@ -80,6 +80,14 @@ std::vector<std::string> group_cells(const Group& group, const GivenUnits& units
   return cells;
 }
 
+/// "The first 2000 of 9998 packings; all are in packings.csv."; empty if all are shown.
+std::string left_out_note(std::size_t shown, std::size_t all, const std::string& what,
+                          const std::string& file) {
+  if (shown == all) return "";
+  return "<p class=\"note\">The first " + std::to_string(shown) + " of " + std::to_string(all) +
+         " " + what + "; all are in <a href=\"" + file + "\">" + file + "</a>.</p>\n";
+}
+
 std::vector<std::string> component_cells(const Group& group, const ComponentLine& line) {
   std::vector<std::string> cells = {html_text(title_of(group)),
                                     html_text(std::to_string(line.component) + " " + line.name),
@@ -241,8 +249,9 @@ std::string groups_section(const std::vector<Group>& groups, const GivenUnits& u
     const auto more = unit_headings(groups, *units);
     table.headings.insert(table.headings.begin() + before_units, more.begin(), more.end());
   }
-  for (const Group& group : groups) table.rows.push_back(group_cells(group, units));
-  return html_table(table);
+  const std::size_t shown = std::min(most_groups, groups.size());
+  for (std::size_t k = 0; k < shown; ++k) table.rows.push_back(group_cells(groups[k], units));
+  return left_out_note(shown, groups.size(), "parameter sets", "groups.csv") + html_table(table);
 }
 
 std::string components_section(const std::vector<Group>& groups, const std::string& folder) {
@@ -353,13 +362,7 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
   const std::size_t shown = std::min(most_packings, sorted.size());
   for (std::size_t k = 0; k < shown; ++k)
     table.rows.push_back(packing_cells(*sorted[k], titles, units));
-  const std::string left_out =
-      shown == sorted.size() ? ""
-                             : "<p class=\"note\">The first " + std::to_string(shown) + " of " +
-                                   std::to_string(sorted.size()) +
-                                   " packings; all are in <a href=\"packings.csv\">packings.csv"
-                                   "</a>.</p>\n";
-  return left_out + html_table(table);
+  return left_out_note(shown, sorted.size(), "packings", "packings.csv") + html_table(table);
 }
 
 std::string remedy_of(const Row& row) {

@@ -11,8 +11,9 @@
 
 namespace grainsweep {
 
-/// At most so many packings stand in the page; packings.csv has all.
-inline constexpr std::size_t most_packings = 2000;
+/// At most so many packings and parameter sets stand in the page; packings.csv and groups.csv have
+/// all.
+inline constexpr std::size_t most_packings = 2000, most_groups = 2000;
 
 /// How many packings there are and what became of them, in a sentence.
 std::string summary_section(const std::vector<Row>& rows, const GivenUnits& units = {});

@@ -444,6 +444,37 @@ TEST_CASE("of very many packings the figure of what they cost draws some, and sa
   CHECK_THAT(effort.caption, Catch::Contains(" 5000 packings are drawn; all are in packings.csv."));
 }
 
+TEST_CASE("of very many groups figures along the axis draw some, and say so", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 5200; ++k) {  // two replicates at each of 2600 widths
+    const double width = 4.0 + k / 2, scatter = k % 2 == 0 ? 1e-4 : -1e-4;
+    rows.push_back(settled_row(std::to_string(k), width, 0.64 - 0.2 / width + scatter, 6.0,
+                               Boundary::walls, k / 2 % 2 == 0 ? 0.1 : 0.2));
+    rows.back().job.replicate = k % 2 + 1;
+  }
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {});
+  const Figure& means = figure_called(figures, "means");
+  CHECK(cells_of_table(means.tables.at(0).second).size() == 1 + 2500);
+  CHECK_THAT(means.caption, Catch::Contains(" 2500 of 2600 groups are shown."));
+  REQUIRE(means.tables.at(1).first == "means-residuals.csv");
+  CHECK(cells_of_table(means.tables[1].second).size() == 1 + 2500);  // of phi: Z does not scatter
+  CHECK(cell_in(means.tables[0].second, 1, "x") == "0.25");
+  CHECK(cell_in(means.tables[0].second, 1250, "x") == cell(1.0 / 2602.0));
+}
+
+TEST_CASE("of very many random points figures over each number draw some, and say so", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 0; k < 1300; ++k) {
+    rows.push_back(settled_row(std::to_string(k), 4.0 + k, 0.6, 5.0, Boundary::walls,
+                               (k * 7 % 1300 + 1) / 2048.0));
+  }
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const Figure& parameters = figure_called(figures, "parameters");
+  CHECK(cells_of_table(parameters.tables.at(0).second).size() == 1 + 1250);
+  CHECK_THAT(parameters.caption, Catch::Contains(" 1250 of 1300 groups are shown."));
+}
+
 TEST_CASE("the panels of kinds of contact reach to the end of the highest error bar", "[report]") {
   std::vector<Row> rows = {polyhedra_row("a", 4), polyhedra_row("b", 4)};
   rows[0].job.replicate = 1, rows[1].job.replicate = 2;

@@ -116,6 +116,19 @@ TEST_CASE("of many packings the page shows 2,000 and leads to all", "[report]") 
   CHECK(html.find("href=\"packings.csv\"") != std::string::npos);
 }
 
+TEST_CASE("of many parameter sets the page shows 2,000 and leads to all", "[report]") {
+  const std::vector<Row> rows = {settled_row("a", 4, 0.6, 5.0)};
+  std::vector<Group> groups = groups_of(rows);
+  groups.resize(most_groups, groups[0]);
+  CHECK(count_of(groups_section(groups), "<tr>") == most_groups + 1);
+  CHECK_THAT(groups_section(groups), !Catch::Contains("The first"));
+  groups.push_back(groups[0]);
+  CHECK(count_of(groups_section(groups), "<tr>") == most_groups + 1);
+  CHECK_THAT(
+      groups_section(groups),
+      Catch::Contains("The first 2000 of 2001 parameter sets; all are in <a href=\"groups.csv\""));
+}
+
 TEST_CASE("without gnuplot the page says so and has all the rest", "[report]") {
   const TemporaryFolder folder;
   const std::vector<Row> rows = evil_rows();
