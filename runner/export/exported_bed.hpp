@@ -26,8 +26,8 @@ struct ContactTreatment {
   double share = 1.0;
 };
 
-/// The least share of caps and bridges. With less, corners would be so near each other that
-/// rounding decides on which side of an edge they lie.
+/// The least share of caps and bridges. A tube gets about one side for each share of a radius, and
+/// of 134 grains in one some surfaces did not close with shares of 1e-4 and less.
 inline constexpr double least_cut = 0.001;
 
 /// "shrink:0.99", "cap:0.2" or "bridge:0.2"; nothing if it is no such thing, or the share not in
