@@ -39,13 +39,13 @@ std::vector<Component> components_in(const JobFacts& job) {
 /// " (height 2)": in which parts a component differs from others of its shape; "" if in none.
 std::string distinction_of(const Component& one, const std::vector<Component>& all) {
   std::string text;
-  for (const auto& [part, value] : one.parts) {
+  for (const auto& part : one.parts) {
     const auto differs = [&](const Component& other) {
-      const auto same = other.parts.find(part);
-      return other.shape == one.shape && same != other.parts.end() && same->second != value;
+      const auto same = other.parts.find(part.first);
+      return other.shape == one.shape && same != other.parts.end() && same->second != part.second;
     };
     if (std::none_of(all.begin(), all.end(), differs)) continue;
-    text.append(text.empty() ? " (" : ", ").append(part).append(" ").append(value);
+    text.append(text.empty() ? " (" : ", ").append(part.first).append(" ").append(part.second);
   }
   return text.empty() ? "" : text + ")";
 }
