@@ -42,6 +42,7 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
 std::pair<double, double> degrees_of_errors(const std::vector<const Group*>& groups,
                                             Quantity quantity) {
   std::vector<double> degrees;
+  degrees.reserve(groups.size());
   for (const Group* group : groups) {
     degrees.push_back(spread_of(*group, quantity).degrees_of_freedom);
   }
