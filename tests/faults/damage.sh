@@ -24,7 +24,7 @@ look() {
   code=0
   {
     PATH=none "$program" report "$1" && "$program" status "$1" && "$program" status "$1" --check &&
-      "$program" export "$1" --to "$here/grains"
+      "$program" export "$1" --quiet --to "$here/grains"
   } >"$2" 2>warned.txt </dev/null || code=$?
   sed -i '/^note: report.html: no figures, for want of gnuplot/d' warned.txt
   sed -i 's/, silent for [^;]*;/;/' "$2" # that is the age of files
