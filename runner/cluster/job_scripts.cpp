@@ -50,7 +50,7 @@ std::string command(const ClusterRun& run) {
 
 }  // namespace
 
-void refuse_controls(const ClusterRun& run) {
+void refuse_controls(const std::string& file, const std::string& folder) {
   const auto refuse = [](const std::string& path, const std::string& what,
                          const std::string& remedy) {
     const std::string shown = without_controls(path);
@@ -60,8 +60,8 @@ void refuse_controls(const ClusterRun& run) {
                    "cannot; " +
                    remedy);
   };
-  refuse(run.file, "FILE", "rename the sweep or its folder");
-  refuse(run.folder, "--out", "name another folder");
+  refuse(file, "FILE", "rename the sweep or its folder");
+  refuse(folder, "--out", "name another folder");
 }
 
 std::string scripts_folder(const std::string& folder) { return folder + "/slurm"; }

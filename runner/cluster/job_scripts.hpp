@@ -18,7 +18,7 @@ struct ClusterRun {
 
 /// Throws BadInput if the path of the sweep or of its folder has a control character: a line of a
 /// script ends where a name has a line feed, and a shell would run the rest.
-void refuse_controls(const ClusterRun& run);
+void refuse_controls(const std::string& file, const std::string& folder);
 
 /// <folder>/slurm, where scripts and logs are.
 std::string scripts_folder(const std::string& folder);

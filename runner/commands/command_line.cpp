@@ -40,8 +40,7 @@ std::string misspelling(const std::string& what, const std::string& word, const 
 /// For whoever gives two output folders to `compare`.
 constexpr const char* compared_with =
     "\ncompare sets one run beside published values, --with FILE; to compare two runs, set the "
-    "rows "
-    "of\ntheir groups.csv beside each other";
+    "rows of\ntheir groups.csv beside each other";
 
 /// What is wrong with the command line, `words` after the program's name.
 std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& error) {

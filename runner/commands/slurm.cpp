@@ -151,7 +151,7 @@ int perform(const SlurmOptions& options) {
   const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
   const std::vector<Cost> most = costs_of(whole.jobs);
   const std::vector<Cost> costs = costs_of(GrowingSweep(whole, {}).now().jobs);
-  refuse_controls({"", absolute(options.file), absolute(folder), "", "", "", {}});
+  refuse_controls(absolute(options.file), absolute(folder));
   const Partition partition = ask_for_partition(options.partition);
   const Division division =
       divide(parts_of(whole, most), most, partition.limits, options.shards, options.threads);

@@ -116,9 +116,13 @@ TEMPLATE_TEST_CASE("whatever has come near is a row, step after step", "", float
   }
 }
 
+/// A bed of several subdomains.
+SphereBed large_bed() {
+  return testing::random_bed({{20, 10, periodic, walls}, 16'000, 0.45, 0.5, 80, 3});
+}
+
 TEST_CASE("late rows of a large bed stay in the subdomains that may hold them") {
-  testing::RandomScene scene{{20, 10, periodic, walls}, 16'000, 0.45, 0.5, 80, 3};
-  SphereBed bed = testing::random_bed(scene);
+  SphereBed bed = large_bed();
   Candidates candidates;
   SphereContacts<float> contacts;
   Counts counts;
@@ -146,8 +150,7 @@ TEST_CASE("late rows of a large bed stay in the subdomains that may hold them") 
 }
 
 TEST_CASE("a pair of grains that were looked up beyond each other's next subdomain is a spare") {
-  testing::RandomScene scene{{20, 10, periodic, walls}, 16'000, 0.45, 0.5, 80, 3};
-  SphereBed bed = testing::random_bed(scene);
+  SphereBed bed = large_bed();
   Candidates candidates;
   SphereContacts<float> contacts;
   Counts counts;

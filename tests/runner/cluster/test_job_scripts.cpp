@@ -50,14 +50,16 @@ TEST_CASE("a folder may have a name that Slurm would take for a pattern") {
 }
 
 TEST_CASE("a path that would end a line of a script is refused, with what names it") {
-  CHECK_NOTHROW(refuse_controls(small_run()));
+  CHECK_NOTHROW(refuse_controls(small_run().file, small_run().folder));
   ClusterRun run = small_run();
   run.folder = "/out/a\nrm -r b";
-  CHECK_THROWS_WITH(refuse_controls(run), StartsWith("--out: \"/out/a?rm -r b\" holds a control"));
+  CHECK_THROWS_WITH(refuse_controls(run.file, run.folder),
+                    StartsWith("--out: \"/out/a?rm -r b\" holds a control"));
   run = small_run();
   run.file = "/a\x1B[31m.json";
-  CHECK_THROWS_AS(refuse_controls(run), BadInput);
-  CHECK_THROWS_WITH(refuse_controls(run), StartsWith("FILE: ") && EndsWith("or its folder"));
+  CHECK_THROWS_AS(refuse_controls(run.file, run.folder), BadInput);
+  CHECK_THROWS_WITH(refuse_controls(run.file, run.folder),
+                    StartsWith("FILE: ") && EndsWith("or its folder"));
 }
 
 TEST_CASE("nodes whose memory is not told are asked for none") {
