@@ -170,7 +170,8 @@ Rows accuracy_rows() {
                                          "steps after the fall, while the bed creeps to rest, "
                                          "where step is 0.2, in proportion where it is shorter; "
                                          "spheres take 1.35 times as many, polyhedra 1.25 times "
-                                         "as many and 60"),
+                                         "as many and 60; before they are tested for rest, spheres "
+                                         "take a 24th as many without momentum"),
       row<&S::accuracy, &A::rest_iterations>(
           "accuracy.rest_iterations", Interval{1, 1000000},
           "most solver iterations per step at rest, of spheres "

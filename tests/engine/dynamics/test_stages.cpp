@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -88,11 +89,22 @@ TEST_CASE("the creep takes its share of the steps that it is given") {
 
 TEST_CASE("half of a stage's share is done after its usual steps") {
   const Accuracy accuracy;
-  for (const char* name : {"look", "fall", "quench"}) {
+  const std::pair<const char*, std::int64_t> usual[] = {{"look", 40}, {"fall", 90}, {"quench", 20}};
+  for (const auto& [name, steps] : usual) {
     const StageRule& stage = heavy_ball(name);
     const double half = (stage.done_before + stage.done_after) / 2;
-    CHECK(share_done(accuracy, stage, stage.usual_steps) == Approx(half));
+    CHECK(share_done(accuracy, stage, steps) == Approx(half));
   }
+}
+
+TEST_CASE("the longer the creep, the longer the quench") {
+  const auto quenched = [](std::string_view name) {
+    return steps_of(preset(name).value(), heavy_ball("quench"));
+  };
+  CHECK(quenched("fast") == 10);
+  CHECK(quenched("balanced") == 20);
+  CHECK(quenched("accurate") == 40);
+  CHECK(quenched("exact") == 40);
 }
 
 TEST_CASE(
