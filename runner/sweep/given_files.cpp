@@ -58,14 +58,10 @@ std::uint64_t hash_of(PlacedGrains placed) {
 }
 
 /// Whether these are diameters of a distribution that somebody chose: defaults are in d.
-bool is_length_of_sizes(const Assignment* assignment) {
+bool is_chosen_diameter(const Assignment* assignment) {
   if (assignment == nullptr) return false;
   const Parameter& parameter = parameters()[assignment->parameter];
-  const bool is_of_formula =
-      parameter.role == Role::size_formula || parameter.role == Role::size_table;
-  const bool is_length = is_of_formula && parameter.meaning.ends_with(", d");
-  return parameter.role == Role::size_file ||
-         (is_length && assignment->value != default_of(parameter));
+  return parameter.is_diameter && assignment->value != default_of(parameter);
 }
 
 }  // namespace
@@ -245,7 +241,7 @@ void GivenFiles::note_hull(const Assignment& file, const VerticesReading& readin
 void GivenFiles::note_unit_of(const InEffect& in_effect) {
   const GivenUnits& units = definition_.units;
   if (!units || units->d == 1.0 || has_noted_unit_) return;
-  const auto length = std::find_if(in_effect.begin(), in_effect.end(), is_length_of_sizes);
+  const auto length = std::find_if(in_effect.begin(), in_effect.end(), is_chosen_diameter);
   if (length == in_effect.end()) return;
   has_noted_unit_ = true;
   const std::string d = bound_text(units->d);

@@ -81,6 +81,8 @@ struct Parameter {
   std::vector<std::string> former_choices = {};
   std::size_t most_items = most_gap_tolerances;  ///< of a list of numbers
   bool are_distinct = true;                      ///< its numbers
+  /// Whether it is written, or read from its file, in the unit of the diameters of a distribution.
+  bool is_diameter = false;
 };
 
 /// Why a packing does not depend on a parameter that is written; "" if it does.

@@ -52,6 +52,13 @@ Parameter of_formula(const char* path, const Interval& range, const char* meanin
       });
 }
 
+template <class Formula, double Formula::*member>
+Parameter diameter_of_formula(const char* path, const char* meaning) {
+  Parameter parameter = of_formula<Formula, member>(path, positive, meaning);
+  parameter.is_diameter = true;
+  return parameter;
+}
+
 template <std::vector<double> SizeTable::*member>
 Parameter of_table(const char* path, const Interval& range, const char* meaning) {
   Parameter parameter = own(
@@ -65,12 +72,13 @@ Parameter of_table(const char* path, const Interval& range, const char* meaning)
         return is_written && !(table->*member).empty() ? present(table->*member) : std::nullopt;
       });
   parameter.most_items = most_size_rows;
-  parameter.are_distinct = member == &SizeTable::diameters;
+  parameter.is_diameter = member == &SizeTable::diameters;
+  parameter.are_distinct = parameter.is_diameter;
   return parameter;
 }
 
 Parameter table_file() {
-  return own(
+  Parameter parameter = own(
       "sizes.distribution.table.file", WrittenValues{},
       "CSV file of diameter and passing, retained or share, instead; relative to the sweep "
       "file",
@@ -84,6 +92,8 @@ Parameter table_file() {
         const bool is_read = !resolved.size_file.empty() && table != nullptr;
         return is_read ? present(hash_of(*table)) : std::nullopt;
       });
+  parameter.is_diameter = true;
+  return parameter;
 }
 
 /// Where the curve is cut.
@@ -122,14 +132,14 @@ std::vector<Parameter> formula_parameters() {
   using U = UniformSizes;
   using W = WeibullSizes;
   return {
-      of_formula<L, &L::median>("sizes.distribution.lognormal.median", positive,
-                                "diameter that half of the grains are finer than, d"),
+      diameter_of_formula<L, &L::median>("sizes.distribution.lognormal.median",
+                                         "diameter that half of the grains are finer than, d"),
       of_formula<L, &L::sigma>("sizes.distribution.lognormal.sigma", Interval{0, 2},
                                "standard deviation of the logarithm of the diameter"),
-      of_formula<U, &U::from>("sizes.distribution.uniform.from", positive, "least diameter, d"),
-      of_formula<U, &U::to>("sizes.distribution.uniform.to", positive, "largest diameter, d"),
-      of_formula<W, &W::scale>("sizes.distribution.weibull.scale", positive,
-                               "diameter that the share 1 - 1/e is finer than, d"),
+      diameter_of_formula<U, &U::from>("sizes.distribution.uniform.from", "least diameter, d"),
+      diameter_of_formula<U, &U::to>("sizes.distribution.uniform.to", "largest diameter, d"),
+      diameter_of_formula<W, &W::scale>("sizes.distribution.weibull.scale",
+                                        "diameter that the share 1 - 1/e is finer than, d"),
       of_formula<W, &W::shape>("sizes.distribution.weibull.shape", Interval{0.1, 100},
                                "exponent k: the share 1 - exp(-(D / scale)^k) is finer than D"),
   };
