@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/tools/roots.hpp>
 
 #include "runner/analysis/student.hpp"
 
@@ -59,6 +61,30 @@ double chi2_of(const std::vector<LinePoint>& points, const LineFit& fit) {
   return chi2;
 }
 
+/// The same points, each of which scatters by so much more.
+std::vector<LinePoint> with_scatter(std::vector<LinePoint> points, double variance) {
+  for (LinePoint& point : points) point.error = std::sqrt(point.error * point.error + variance);
+  return points;
+}
+
+/// The variance with which chi2 is the number of degrees of freedom; that without is larger. chi2
+/// falls as it grows, and is no larger than the squares about the unweighted line over it.
+double variance_of_scatter(const std::vector<LinePoint>& points) {
+  std::vector<LinePoint> alike = points;
+  for (LinePoint& point : alike) point.error = 1.0;
+  const LineFit unweighted = fit_line(alike).value();
+  const double degrees = unweighted.degrees_of_freedom, most = unweighted.chi2 / degrees;
+  const auto too_much = [&](double variance) {
+    return fit_line(with_scatter(points, variance)).value().chi2 - degrees;
+  };
+  if (!(too_much(most) < 0.0)) return most;
+  constexpr int bits = 40;
+  std::uintmax_t most_steps = 200;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      too_much, 0.0, most, boost::math::tools::eps_tolerance<double>(bits), most_steps);
+  return (below + above) / 2.0;
+}
+
 }  // namespace
 
 std::optional<LineFit> fit_line(const std::vector<LinePoint>& points) {
@@ -73,6 +99,16 @@ std::optional<LineFit> fit_line(const std::vector<LinePoint>& points) {
   fit.intercept_error = std::sqrt(1.0 / sum.weight + sum.x_mean * sum.x_mean / sum.xx);
   fit.covariance = -sum.x_mean / sum.xx;
   fit.r_squared = sum.yy > 0 ? 1.0 - fit.chi2 / sum.yy : std::numeric_limits<double>::quiet_NaN();
+  return fit;
+}
+
+std::optional<LineFit> fit_scattered_line(const std::vector<LinePoint>& points) {
+  const auto plain = fit_line(points);
+  if (!plain || plain->chi2 <= plain->degrees_of_freedom) return plain;
+  const double variance = variance_of_scatter(points);
+  LineFit fit = fit_line(with_scatter(points, variance)).value();
+  fit.chi2 = plain->chi2;
+  fit.scatter = std::sqrt(variance);
   return fit;
 }
 

@@ -5,6 +5,13 @@
 //   var(slope) = 1 / S_xx,   var(intercept) = 1 / sum w + x_m^2 / S_xx,
 //   cov(intercept, slope) = -x_m / S_xx
 // (Bevington & Robinson, Data Reduction and Error Analysis, ch. 6).
+//
+// Points that miss the line by more than their errors scatter about it, each by as much as the
+// others: a scatter s, the square of which adds to that of every error, such that chi2 becomes the
+// number of degrees of freedom (R. C. Paule & J. Mandel, J. Res. Natl. Bur. Stand. 87, 377, 1982).
+// Where all errors are the same, this is the plain line, with errors widened by the root of chi2
+// per degree of freedom. Where they differ, the line does not go through the few points of
+// smallest error alone.
 #pragma once
 
 #include <limits>
@@ -27,7 +34,8 @@ struct LineFit {
   double intercept_error = 0.0;  ///< one standard error
   double slope_error = 0.0;      ///< one standard error
   double covariance = 0.0;       ///< of intercept and slope
-  double chi2 = 0.0;             ///< sum of w (y - line)^2
+  double chi2 = 0.0;             ///< sum of w (y - line)^2; of the line without scatter
+  double scatter = 0.0;          ///< of the points, beyond their errors, in the unit of y
   int degrees_of_freedom = 0;    ///< number of points - 2
   double r_squared = 0.0;        ///< share of the weighted variance explained; NaN if y is constant
 };
@@ -49,5 +57,8 @@ bool may_hold(const Misfit& misfit);
 /// Nothing if the points do not determine a line with errors: fewer than three points, fewer than
 /// two different x, or an error that is not positive and finite.
 std::optional<LineFit> fit_line(const std::vector<LinePoint>& points);
+
+/// The same for points that may also scatter about the line.
+std::optional<LineFit> fit_scattered_line(const std::vector<LinePoint>& points);
 
 }  // namespace grainsweep

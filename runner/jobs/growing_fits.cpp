@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "runner/analysis/fit.hpp"
@@ -109,9 +110,10 @@ class Round {
   double over_widened(const std::vector<Target>& targets) const {
     double worst = 0.0;
     for (const Target& target : targets) {
-      if (!has_line_) return 0.0;
-      const double widening = std::sqrt(std::max(1.0, chi2_per_dof(target.is_coordination)));
-      worst = std::max(worst, widening * over(target, design_));
+      const auto line = line_of(target.is_coordination);
+      if (!line) return 0.0;
+      const double error = target.is_slope ? line->slope_error : line->intercept_error;
+      worst = std::max(worst, normal_quantile * error / target.half_interval);
     }
     return worst;
   }
@@ -167,15 +169,14 @@ class Round {
     return groups_[k].floor_area * means_.at(groups_[k].mean).slab_height.mean;
   }
 
-  double chi2_per_dof(bool is_coordination) const {
-    if (!has_line_) return 0.0;
+  std::optional<LineFit> line_of(bool is_coordination) const {
+    if (!has_line_) return std::nullopt;
     std::vector<LinePoint> points;
     for (const auto& [mean, width] : widths_) {
       const Spread& spread = spread_of(mean, is_coordination);
       points.push_back({1.0 / width, spread.mean, spread.error});
     }
-    const auto line = fit_line(points);
-    return line ? line->chi2 / line->degrees_of_freedom : 0.0;
+    return fit_scattered_line(points);
   }
 
   /// Gives the means of a quantity the errors that they have in groups.csv.

@@ -12,12 +12,6 @@ constexpr std::array<BedKind, bed_kinds> kinds = {
     BedKind::narrow_two_sizes, BedKind::many_sizes,     BedKind::pinacoids,
     BedKind::narrow_pinacoids};
 
-/// Whether its walls stand so near to each other that they order the grains.
-bool is_narrow(const Box& box) {
-  constexpr double narrow_gap = 4.0, narrow_duct = 5.0;  // d
-  return nearest_walls(box) < (is_walled_around(box) ? narrow_duct : narrow_gap);
-}
-
 /// Whether its walls stand at least so far from each other as in narrow containers of other grains
 /// than spheres of one size that were measured.
 bool is_wide_enough(const Box& box, double gap, double duct, double tube) {
@@ -70,6 +64,11 @@ bool is_usual(const PinacoidSize& size) {
 }
 
 }  // namespace
+
+bool is_narrow(const Box& box) {
+  constexpr double narrow_gap = 4.0, narrow_duct = 5.0;  // d
+  return nearest_walls(box) < (is_walled_around(box) ? narrow_duct : narrow_gap);
+}
 
 std::optional<BedKind> bed_kind(const PackingSpec& spec) {
   const SizesSpec& sizes = spec.sizes;

@@ -9,6 +9,11 @@
 
 namespace grainsweep {
 
+/// Whether its walls stand so near to each other that they order the grains: nearer than 4 d, in
+/// ducts and tubes than 5 d. phi and Z go up and down with the width there, as layers fit or do
+/// not.
+bool is_narrow(const Box& box);
+
 /// None for beds unlike any that was measured: starts from files; classes that spread more than
 /// they usually do; small grains less than half as large as the others, or without others;
 /// distributions whose largest grain is more than 3 times the smallest, but for lognormal ones with

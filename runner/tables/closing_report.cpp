@@ -144,7 +144,7 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals,
       ",  ζ = " + slope + "/" + symbol +
       "_bulk = " + length_text(fit.zeta.value, fit.zeta.error, 3, units) +
       (units ? "\n      " : "  ") + quality_text(fit) + "\n";
-  if (!fit.doubt.empty()) text += "      " + fit.doubt + "; errors widened by √(χ²/dof)\n";
+  if (!fit.doubt.empty()) text += "      " + fit.doubt + "\n";
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runner/analysis/fit.hpp"
+#include "runner/sweep/bed_kind.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -38,21 +39,18 @@ std::vector<FitPoint> points_of(const std::vector<const Group*>& groups, Quantit
   return points;
 }
 
-/// Least and most degrees of freedom from which errors of the groups' means are known.
-std::pair<double, double> degrees_of_errors(const std::vector<const Group*>& groups,
-                                            Quantity quantity) {
-  std::vector<double> degrees;
-  degrees.reserve(groups.size());
-  for (const Group* group : groups) {
-    degrees.push_back(spread_of(*group, quantity).degrees_of_freedom);
+/// Degrees of freedom from which the errors of the groups' means are known.
+std::set<double> degrees_of_errors(const std::vector<FitPoint>& points, Quantity quantity) {
+  std::set<double> degrees;
+  for (const FitPoint& point : points) {
+    degrees.insert(spread_of(*point.group, quantity).degrees_of_freedom);
   }
-  const auto [least, most] = std::minmax_element(degrees.begin(), degrees.end());
-  return {*least, *most};
+  return degrees;
 }
 
-std::string weights_text(const std::vector<const Group*>& groups, Quantity quantity) {
-  const auto [least, most] = degrees_of_errors(groups, quantity);
-  const std::string low = fixed(least, 0), high = fixed(most, 0);
+std::string weights_text(const std::vector<FitPoint>& points, Quantity quantity) {
+  const std::set<double> degrees = degrees_of_errors(points, quantity);
+  const std::string low = fixed(*degrees.begin(), 0), high = fixed(*degrees.rbegin(), 0);
   return "variance times volume of the slab of the replicates and of others of the family (" + low +
          (low == high ? "" : " to " + high) + " degrees of freedom)";
 }
@@ -65,20 +63,43 @@ Estimate zeta_of(const LineFit& line) {
   return {slope / bulk, std::sqrt(std::max(0.0, variance))};
 }
 
-/// `errors_known_from`: see Misfit.
-void take_line(const LineFit& line, double errors_known_from, WallFit& fit) {
-  const double chi2 = line.chi2 / line.degrees_of_freedom;
-  const double widening = std::sqrt(std::max(1.0, chi2));
-  fit.bulk = {line.intercept, line.intercept_error * widening};
-  fit.slope = {-line.slope, line.slope_error * widening};
+void take_line(const LineFit& line, WallFit& fit) {
+  fit.bulk = {line.intercept, line.intercept_error};
+  fit.slope = {-line.slope, line.slope_error};
   fit.zeta = zeta_of(line);
-  fit.zeta.error *= widening;
   fit.degrees_of_freedom = line.degrees_of_freedom;
-  fit.chi2_per_dof = chi2;
-  if (!may_hold({chi2, line.degrees_of_freedom, errors_known_from}))
-    fit.doubt = "the straight line does not hold";
+  fit.chi2_per_dof = line.chi2 / line.degrees_of_freedom;
+  fit.scatter = line.scatter;
   fit.r_squared = line.r_squared;
   for (FitPoint& point : fit.points) point.fitted = line.intercept + line.slope / point.width;
+}
+
+/// Whether the points miss the line, which knows of no scatter, by no more than chance lets them.
+/// Errors that come from few packings leave room for much. So the points with better known ones are
+/// also looked at alone: one that is hardly known does not excuse all others.
+bool may_be_straight(const LineFit& line, const std::vector<FitPoint>& points, Quantity quantity) {
+  const std::set<double> degrees = degrees_of_errors(points, quantity);
+  return std::all_of(degrees.begin(), degrees.end(), [&](double least) {
+    double chi2 = 0.0;
+    int left = -2;  // degrees of freedom
+    for (const FitPoint& point : points) {
+      if (spread_of(*point.group, quantity).degrees_of_freedom < least) continue;
+      const double miss = point.mean - line.intercept - line.slope / point.width;
+      chi2 += std::pow(miss / point.error, 2);
+      ++left;
+    }
+    return left < 1 || may_hold({chi2 / left, left, least});
+  });
+}
+
+/// Why a line may be none; empty if it may.
+std::string doubt_of(const LineFit& line, const std::vector<FitPoint>& points, Quantity quantity) {
+  if (!may_be_straight(line, points, quantity)) return "the straight line does not hold";
+  const bool has_narrow = std::any_of(points.begin(), points.end(), [](const FitPoint& point) {
+    return is_narrow(point.group->job.box);
+  });
+  return has_narrow ? "no line need hold in narrow containers (W < 4 d, ducts and tubes < 5 d)"
+                    : "";
 }
 
 /// Groups of a family differ only in their width: narrow ones may have a larger bound than others.
@@ -149,10 +170,12 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
               "how far bulk lies at most from that of beds settled ever better; empty if not "
               "measured",
               fit_cell([](const WallFit& fit) { return fit.bias_bound.value_or(no_number); })},
-             {"chi2_per_dof", "",
-              "about 1 or less if the line holds; where it exceeds 1, all errors are widened by "
-              "its root",
+             {"chi2_per_dof", "", "about 1 or less if the line holds, of the line without scatter",
               fit_cell(&WallFit::chi2_per_dof)},
+             {"scatter", "",
+              "standard deviation of the means about the line beyond their errors, with which chi2 "
+              "would be 1; part of the errors of bulk, C and zeta",
+              fit_cell(&WallFit::scatter)},
              {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
              {"r_squared", "",
               "share of the variance of the means that the line explains, both weighted by the "
@@ -236,11 +259,11 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   fit.widths = static_cast<int>(widths.size());
   fit.not_determined = why_not_determined(groups, quantity, fit.widths);
   if (!fit.not_determined.empty()) return fit;
-  fit.weights = weights_text(groups, quantity);
+  fit.weights = weights_text(fit.points, quantity);
   fit.bias_bound = bias_bound(groups, quantity);
-  const auto line = fit_line(points);
-  if (line) {
-    take_line(*line, degrees_of_errors(groups, quantity).first, fit);
+  if (const auto line = fit_line(points)) {
+    fit.doubt = doubt_of(*line, fit.points, quantity);
+    take_line(fit_scattered_line(points).value(), fit);
   } else {
     fit.not_determined = "a mean value is not a number";
   }

@@ -51,6 +51,7 @@ struct WallFit {
   double chi2_per_dof =
       0.0;  ///< about 1 if the line holds, less where errors come from few packings
   int degrees_of_freedom = 0;
+  double scatter = 0.0;  ///< of the means about the line, beyond their errors, as the quantity
   double r_squared = 0.0;
 };
 

@@ -79,6 +79,46 @@ TEST_CASE("points that do not determine a line give nothing") {
   CHECK_FALSE(fit_line({{1, std::nan(""), 1}, {2, 2, 1}, {3, 3, 1}}));
 }
 
+// Worked by hand: the points above have chi2 = 3/2 for one degree of freedom, so that their errors
+// of 1 become the root of 3/2.
+TEST_CASE("points of one error scatter by what widens it by the root of chi2 per degree") {
+  const auto fit = fit_scattered_line({{-1, 0, 1}, {0, 0, 1}, {1, 3, 1}});
+  REQUIRE(fit);
+  CHECK(fit->scatter == Approx(std::sqrt(0.5)));
+  CHECK(fit->chi2 == Approx(1.5));
+  CHECK(fit->slope == Approx(1.5));
+  CHECK(fit->intercept == Approx(1.0));
+  CHECK(fit->slope_error == Approx(std::sqrt(0.75)));
+  CHECK(fit->intercept_error == Approx(std::sqrt(0.5)));
+}
+
+TEST_CASE("points that miss the line by less than their errors do not scatter about it") {
+  const std::vector<LinePoint> points = {{-1, 0, 2}, {0, 0, 2}, {1, 3, 2}};
+  const auto fit = fit_scattered_line(points), plain = fit_line(points);
+  REQUIRE(fit);
+  CHECK(fit->scatter == 0.0);
+  CHECK(fit->slope_error == plain->slope_error);
+  CHECK_FALSE(fit_scattered_line({{1, 1, 1}, {2, 2, 1}}));
+}
+
+// Two points known to 1e-6 beside others known to 0.1, all of which scatter by 1: the plain line
+// goes through the two.
+TEST_CASE("two points of tiny error do not decide alone on a line about which all scatter") {
+  const std::vector<LinePoint> points = {{0, 1, 1e-6}, {1, -1, 1e-6}, {2, 3, 0.1},
+                                         {3, 2, 0.1},  {4, 5, 0.1},   {5, 4, 0.1}};
+  CHECK(fit_line(points)->slope == about(-2.0, 1e-3));
+  const auto fit = fit_scattered_line(points);
+  REQUIRE(fit);
+  CHECK(fit->chi2 == fit_line(points)->chi2);
+  std::vector<LinePoint> wider = points;
+  for (LinePoint& point : wider) point.error = std::hypot(point.error, fit->scatter);
+  CHECK(fit_line(wider)->chi2 == Approx(4.0));  // its degrees of freedom
+  CHECK(fit->slope == Approx(fit_line(wider)->slope));
+  // The unweighted line: x_m = 5/2, S_xx = 35/2, S_xy = 16, S_yy = 70/3.
+  CHECK(fit->slope == Approx(16 / 17.5).epsilon(0.02));
+  CHECK(fit->scatter == Approx(std::sqrt((70.0 / 3.0 - 16 * 16 / 17.5) / 4)).epsilon(0.02));
+}
+
 // Of two degrees of freedom chi2 is larger than x with probability exp(-x / 2), of one with that of
 // a normal deviate beyond its root to either side: 0.005 beyond 2.8070.
 TEST_CASE("a misfit that chance exceeds in one case of 200 is not put down to it") {
