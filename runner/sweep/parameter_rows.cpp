@@ -164,7 +164,8 @@ Rows accuracy_rows() {
           "accuracy.path_tolerance", Interval{1e-9},
           "how far contacts may stray, d, root mean square: in a full step of the fall of "
           "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
-          "polyhedra 80 to 100 times; less, by the square of their distance, between walls "
+          "polyhedra 80 to 100 times (up to 160 where creep_steps is below 200); less, by the "
+          "square of their distance, between walls "
           "nearer than 5 d, in ducts and tubes of less than 7 d and in shorter periods than 5 d"),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest, "
@@ -172,11 +173,10 @@ Rows accuracy_rows() {
                                          "spheres take 1.35 times as many, polyhedra 1.25 times "
                                          "as many and 60; before they are tested for rest, spheres "
                                          "take a 24th as many without momentum"),
-      row<&S::accuracy, &A::rest_iterations>(
-          "accuracy.rest_iterations", Interval{1, 1000000},
-          "most solver iterations per step at rest, of spheres "
-          "twice as many; 1.5 for each mean diameter of height, if that "
-          "is more"),
+      row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
+                                             "most solver iterations per step at rest, or 1.5 for "
+                                             "each mean diameter of height if that "
+                                             "is more; spheres take up to twice as many"),
       row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                 "worst residual of the last step at rest, m g"),
       row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
@@ -210,8 +210,9 @@ Rows measure_rows() {
       row<&S::measure, &M::gap_tolerances>(
           "measure.gap_tolerances", Interval{0, 0.1, true, true},
           "grains touch below these gaps, d, 1 to 8 of them; the first is the headline"),
-      row<&S::measure, &M::bin_width>("measure.bin_width", Interval{0.01, 10000},
-                                      "width of the bins of profiles, d"),
+      row<&S::measure, &M::bin_width>(
+          "measure.bin_width", Interval{0.01, 10000},
+          "width of the bins of profiles, d; at most box.width or half of tube.diameter"),
   };
 }
 
