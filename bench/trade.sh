@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the trade of speed for accuracy: settles the sweeps of bench/trade, 64 or more starts with
-# each of 24 to 28 accuracies, and compares every accuracy with exact rest, start by start. Writes
+# each of 24 to 27 accuracies, and compares every accuracy with exact rest, start by start. Writes
 # SCENE.md, SCENE.csv and, with gnuplot, SCENE.svg; --readme puts them into bench/trade/README.md, in which other
 # scenes stay as they were measured. A scene takes a third of an hour to three hours of one core;
 # stopped, it goes on where it was.
