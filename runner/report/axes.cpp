@@ -322,25 +322,24 @@ std::string joined_title(const std::string& label, const std::string& distinctio
 
 enum class Among { all, label };
 
-/// Their distinctions without those that all of them share, or all with the same label. An extent
-/// is left out only where all have it: labels do not tell it.
-std::vector<Values> not_shared(const std::vector<const Group*>& groups, Among among) {
+/// Their distinctions without those that all of `sweep` share, or all with the same label. An
+/// extent is left out only where all have it: labels do not tell it.
+std::vector<Values> not_shared(const std::vector<const Group*>& groups, Among among,
+                               const std::vector<const Group*>& sweep) {
   const auto set_of = [&](const Group& group, const std::string& path) {
     return among == Among::label && !is_extent(path) ? group.job.label : std::string();
   };
-  std::vector<Values> all;
   std::map<std::string, std::size_t> sizes;
   std::map<std::pair<std::string, Values::value_type>, std::size_t> uses;
-  for (const Group* group : groups) {
+  for (const Group* group : sweep) {
     ++sizes[group->job.label];
-    for (const auto& one : all.emplace_back(distinctions(*group, ""))) {
-      ++uses[{set_of(*group, one.first), one}];
-    }
+    for (const auto& one : distinctions(*group, "")) ++uses[{set_of(*group, one.first), one}];
   }
-  sizes[""] = groups.size();
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    std::erase_if(all[k], [&](const auto& one) {
-      const std::string set = set_of(*groups[k], one.first);
+  sizes[""] = sweep.size();
+  std::vector<Values> all;
+  for (const Group* group : groups) {
+    std::erase_if(all.emplace_back(distinctions(*group, "")), [&](const auto& one) {
+      const std::string set = set_of(*group, one.first);
       return uses[{set, one}] == sizes[set];
     });
   }
@@ -412,24 +411,36 @@ std::vector<std::string> titles_with(const std::vector<Values>& values,
   return titles;
 }
 
+/// Titles with room for all that leave out what all of `sweep` share, then what all of a label do,
+/// then labels; none if there are no such.
+std::vector<std::string> titles_within(const std::vector<const Group*>& groups, std::size_t longest,
+                                       const std::vector<const Group*>& sweep) {
+  const std::vector<Values> values = with_short_numbers(not_shared(groups, Among::all, sweep));
+  std::vector<std::string> titles = titles_with(values, groups, longest);
+  if (have_room(titles, longest)) return told_apart(titles, longest);
+  titles =
+      titles_with(with_short_numbers(not_shared(groups, Among::label, sweep)), groups, longest);
+  if (have_room(titles, longest) && are_different(titles)) return titles;
+  titles.clear();
+  for (const Values& one : values) titles.push_back(words(one));
+  if (have_room(titles, longest) && are_different(titles)) return titles;
+  return {};
+}
+
 }  // namespace
 
-std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest) {
+std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest,
+                                   const std::vector<const Group*>& sweep) {
   std::vector<std::string> titles;
   titles.reserve(groups.size());
   for (const Group* group : groups) titles.push_back(title_of(*group));
   if (have_room(titles, longest)) return titles;
-  const std::vector<Values> values = with_short_numbers(not_shared(groups, Among::all));
-  titles = titles_with(values, groups, longest);
-  if (have_room(titles, longest)) return told_apart(titles, longest);
-  std::vector<std::string> by_label =
-      titles_with(with_short_numbers(not_shared(groups, Among::label)), groups, longest);
-  if (have_room(by_label, longest) && are_different(by_label)) return by_label;
-  std::vector<std::string> without_labels;
-  without_labels.reserve(groups.size());
-  for (const Values& one : values) without_labels.push_back(words(one));
-  const bool suffice = have_room(without_labels, longest) && are_different(without_labels);
-  return suffice ? without_labels : told_apart(titles, longest);
+  for (const auto* among : {&sweep, &groups}) {
+    titles = titles_within(groups, longest, *among);
+    if (!titles.empty()) return titles;
+  }
+  const auto values = with_short_numbers(not_shared(groups, Among::all, groups));
+  return told_apart(titles_with(values, groups, longest), longest);
 }
 
 std::vector<std::string> told_apart(const std::vector<std::string>& texts, std::size_t longest) {

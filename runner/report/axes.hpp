@@ -60,10 +60,11 @@ std::string title_of(const Group& group, std::size_t longest_label = 1000);
 /// Characters of a label that a figure has room for beside other words.
 inline constexpr std::size_t figure_label = 16;
 
-/// What tells these groups from each other, each in at most so many characters. Where there is no
-/// room for all, what they share is left out, and numbers are short; then what all of a label
-/// share.
-std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest);
+/// What tells these groups from all of a sweep, each in at most so many characters. Where there is
+/// no room for all, what the sweep shares is left out, and numbers are short; then what all of a
+/// label share; then labels. Where there is no room for that either, they are told from each other.
+std::vector<std::string> titles_of(const std::vector<const Group*>& groups, std::size_t longest,
+                                   const std::vector<const Group*>& sweep);
 
 /// Texts shortened to so many characters; those that would then be alike are left out in the middle
 /// instead, up to where they first differ, and if that does not tell them apart either they begin

@@ -64,10 +64,10 @@ std::size_t shown_components(const Mixtures& groups) {
   return std::min(most, most_series);
 }
 
-/// Dashes tell the lines apart where colours do not.
+/// Marks tell the lines apart where colours do not, and show bins whose neighbours have no grains:
+/// dashes would look like those.
 std::string component_style(std::size_t component) {
-  constexpr std::size_t dash_types = 5;  // of gnuplot, the first of them solid
-  return "lines ls " + cell(component + 1) + " lw 1.4 dt " + cell(component % dash_types + 1);
+  return "linespoints ls " + cell(component + 1) + " lw 1.4 ps 0.45";
 }
 
 /// "sphere", or of several mixtures "sphere or cube".
@@ -91,7 +91,7 @@ std::string component_panel(std::size_t number, const Group& group, const std::s
   return plot_command(parts);
 }
 
-std::string component_commands_of(const Figure& figure, const Mixtures& groups) {
+std::string component_commands_of(Figure& figure, const Mixtures& groups, const Axes& axes) {
   std::vector<KeyEntry> key;
   for (std::size_t k = 0; k < shown_components(groups); ++k) {
     key.push_back({component_style(k), component_title(groups, k)});
@@ -102,7 +102,7 @@ std::string component_commands_of(const Figure& figure, const Mixtures& groups) 
   const std::string touching = range_command(
       "y", range_of(component_values_in(groups, &MeanComponentBin::coordination), 0.06));
   std::string text = "set multiplot\n" + panels.key();
-  const auto titles = titles_of(groups, panels.title_length());
+  const auto titles = titles_of(groups, panels.title_length(), axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Group& group = *groups[k];
     text += panels_across(panels, k, titles[k], group,
@@ -132,7 +132,7 @@ Figure components_figure(const Axes& axes) {
       few_of_all_text(groups.size(), axes);
   figure.height = 520;
   figure.tables = {{components_table_name, component_bins_csv(groups)}};
-  figure.commands = component_commands_of(figure, groups);
+  figure.commands = component_commands_of(figure, groups, axes);
   return figure;
 }
 

@@ -47,14 +47,17 @@ std::string heights_csv(const std::vector<GroupWithCurves>& groups,
   return text;
 }
 
+bool have_bars(const std::vector<MeanBin>& bins) { return bins.size() <= most_bars; }
+
 /// All means of these bins, and 0.
-std::vector<double> means_in(const std::vector<std::vector<MeanBin>>& slices,
-                             Spread MeanBin::*spread) {
-  std::vector<double> values = {0.0};
+Bars slice_bars(const std::vector<std::vector<MeanBin>>& slices, Spread MeanBin::*spread) {
+  Bars bars = {{0.0, no_number}};
   for (const auto& bins : slices) {
-    for (const MeanBin& bin : bins) values.push_back((bin.*spread).mean);
+    for (const MeanBin& bin : bins) {
+      bars.push_back({(bin.*spread).mean, have_bars(bins) ? (bin.*spread).error : no_number});
+    }
   }
-  return values;
+  return bars;
 }
 
 std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
@@ -202,6 +205,13 @@ std::string effort_csv(const Axes& axes,
   return text;
 }
 
+/// The range of these, and 0.
+Range range_from_0(const Bars& bars) {
+  std::vector<double> ends = shown_ends(bars);
+  ends.push_back(0.0);
+  return range_of(ends, 0.2);
+}
+
 }  // namespace
 
 Figure distributions_figure(const Axes& axes) {
@@ -217,7 +227,7 @@ Figure distributions_figure(const Axes& axes) {
   figure.caption += few_of_all_text(groups.size(), axes);
   std::vector<std::string> pairs, forces;
   std::vector<KeyEntry> key;
-  const auto titles = titles_of(groups, longest_entry);
+  const auto titles = titles_of(groups, longest_entry, axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const std::string style = "linespoints ls " + cell(k + 1);
     key.push_back({style, titles[k]});
@@ -244,10 +254,7 @@ Figure heights_figure(const Axes& axes) {
       .name = "heights",
       .title = "From the floor to the surface",
       .caption =
-          "Solid fraction and coordination number (walls not counted) of slices about 1 d thick; "
-          "bars, where there is room for them, are standard errors. What is measured as "
-          "a bed's is the part between, away from floor and surface. Thinner slices are "
-          "in the folder's profiles.csv."};
+          "Solid fraction and coordination number (walls not counted) of slices about 1 d thick"};
   const std::vector<GroupWithCurves> groups = chosen_groups(axes, most_curves);
   if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   const std::string table = "heights.csv";
@@ -256,30 +263,34 @@ Figure heights_figure(const Axes& axes) {
   for (const auto& bins : slices)
     highest = std::max(highest, bins.empty() ? 0.0 : bins.back().high);
   figure.tables = {{table, heights_csv(groups, slices)}};
-  figure.caption += few_of_all_text(groups.size(), axes);
+  const Bars solid_bars = slice_bars(slices, &MeanBin::solid_fraction),
+             touching_bars = slice_bars(slices, &MeanBin::coordination);
+  figure.caption +=
+      bars_text({solid_bars, touching_bars}, ", where there is room for them,") +
+      ". What is measured as a bed's is the part between, away from floor and surface. Thinner "
+      "slices are in the folder's profiles.csv." +
+      few_of_all_text(groups.size(), axes);
   std::vector<std::string> solid, touching;
   std::vector<KeyEntry> key;
-  const auto titles = titles_of(groups, longest_entry);
+  const auto titles = titles_of(groups, longest_entry, axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const std::string style = "lines ls " + cell(k + 1);
     key.push_back({style, titles[k]});
-    const bool has_bars = slices[k].size() <= most_bars;
     const auto curve_of = [&](const std::string& column) {
-      return plot_part(
-          {table, "curve", k + 1, "z", column, has_bars ? column + "_error" : "", style});
+      return plot_part({table, "curve", k + 1, "z", column,
+                        have_bars(slices[k]) ? column + "_error" : "", style});
     };
     solid.push_back(curve_of("solid_fraction"));
     touching.push_back(curve_of("coordination"));
   }
   const Panels panels(figure, 2, {1.0}, key, {.right = 24.0});
   const std::string z = range_command("x", {0.0, highest}) + label_command("x", "height, z / d");
-  figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + z +
-                    label_command("y", "solid fraction φ") +
-                    range_command("y", range_of(means_in(slices, &MeanBin::solid_fraction), 0.04)) +
-                    plot_command(solid) + panels.place(1, 0) + z +
-                    label_command("y", "coordination number Z") +
-                    range_command("y", range_of(means_in(slices, &MeanBin::coordination), 0.04)) +
-                    plot_command(touching);
+  figure.commands =
+      "set multiplot\n" + panels.key() + panels.place(0, 0) + z +
+      label_command("y", "solid fraction φ") +
+      range_command("y", range_of(shown_ends(solid_bars), 0.04)) + plot_command(solid) +
+      panels.place(1, 0) + z + label_command("y", "coordination number Z") +
+      range_command("y", range_of(shown_ends(touching_bars), 0.04)) + plot_command(touching);
   return figure;
 }
 
@@ -290,26 +301,28 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
                            extent_symbol(families) +
                            ". Right: how far the layers reach from the walls of the widest gap "
                            "(where their amplitude has fallen to 5 % of the bulk), for large and "
-                           "small grains. A family whose value is not determined has no point; "
-                           "fits.csv and decays.csv say why."};
+                           "small grains"};
   const std::string table = "small_grains.csv";
   const auto sorted = by_small_share(families);
   const std::vector<WallReach> reaches = reaches_of(sorted, folder);
   figure.tables = {{table, small_share_csv(reaches)}};
-  std::vector<double> slopes = {0.0}, lengths = {0.0};
+  Bars slopes, lengths;
   std::size_t marks = 1;
   for (const WallReach& reach : reaches) {
     marks = std::max(marks, reach.mark + 1);
     const Estimate& slope = reach.phi.slope;
-    if (reach.phi.not_determined.empty()) add_ends(slope.value, slope.error, slopes);
+    if (reach.phi.not_determined.empty()) slopes.push_back({slope.value, slope.error});
     for (const DecayFit* fit : {&reach.large, &reach.small}) {
-      if (fit->not_determined.empty()) add_ends(fit->reach.value, fit->reach.error, lengths);
+      if (fit->not_determined.empty()) lengths.push_back({fit->reach.value, fit->reach.error});
     }
   }
+  figure.caption += bars_text({slopes, lengths}) +
+                    ". A family whose value is not determined has no point; fits.csv and "
+                    "decays.csv say why.";
   if (marks > 1) {
     figure.caption += " Families of one share have different marks, in the order of " + table + ".";
   }
-  const bool has_slopes = slopes.size() > 1, has_lengths = lengths.size() > 1;
+  const bool has_slopes = !slopes.empty(), has_lengths = !lengths.empty();
   if (!has_slopes && !has_lengths) {
     figure.not_drawn =
         "neither C nor the reach is determined in any family; fits.csv and "
@@ -336,11 +349,11 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
       range_command("x", range_of({sorted.begin()->first, sorted.rbegin()->first}, 0.08)) +
       label_command("x", "share of small grains in the solid volume");
   figure.commands = "set multiplot\n" + panels.key() + panels.place(0, 0) + x +
-                    label_command("y", "C / d") + range_command("y", range_of(slopes, 0.2)) +
+                    label_command("y", "C / d") + range_command("y", range_from_0(slopes)) +
                     written_in_panel(has_slopes ? "" : "C is determined in no family") +
                     plot_command(slope_parts) + panels.place(1, 0) + x +
                     label_command("y", "reach / d") +
-                    range_command("y", {0.0, range_of(lengths, 0.2).high}) +
+                    range_command("y", {0.0, range_from_0(lengths).high}) +
                     written_in_panel(has_lengths ? "" : "the reach is determined in no family") +
                     plot_command(reach_parts);
   return figure;
@@ -350,8 +363,8 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   Figure figure{.name = "effort",
                 .title = "Time and rest",
                 .caption =
-                    "Each packing: processor time, and how near it came to exactly as many "
-                    "contacts as a bed at rest needs (1)."};
+                    "Each packing: processor time, on a logarithmic axis, and how near it came to "
+                    "exactly as many contacts as a bed at rest needs (1)."};
   const auto points = points_of(rows);
   if (points.empty()) return undrawn(std::move(figure), "no packing was measured");
   const std::string table = "effort.csv";
@@ -393,8 +406,8 @@ Figure effort_figure(const Axes& axes, const std::vector<Row>& rows) {
   const double slowest_shown = std::pow(10.0, *slowest + room);
   const Panels panels(figure, 1, {1.0}, key, {.right = 24.0});
   figure.commands =
-      "set multiplot\n" + panels.key() + panels.place(0, 0) + "set logscale x\n" +
-      range_command("x", {fastest_shown, slowest_shown}) +
+      reference_colours(axes) + "set multiplot\n" + panels.key() + panels.place(0, 0) +
+      "set logscale x\n" + range_command("x", {fastest_shown, slowest_shown}) +
       decade_tics_command("x", fastest_shown, slowest_shown) +
       range_command("y", range_of(ratios, 0.06)) +
       "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lc rgb '#444444'\n" +

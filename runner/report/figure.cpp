@@ -16,7 +16,7 @@ constexpr double left_margin = 106.0, bottom_margin = 66.0;  // px
 const std::string frame =
     "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
     "set xtics nomirror\nset ytics nomirror\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n";
-constexpr double key_line = 22.0;  // px
+constexpr int key_line = 20;  // px
 
 /// Entries of the key that stand side by side: as many as gnuplot finds room for in 960 px.
 std::size_t columns_of(const std::vector<KeyEntry>& key) {
@@ -27,9 +27,14 @@ std::size_t columns_of(const std::vector<KeyEntry>& key) {
   return are_short ? 3 : 2;
 }
 
-double lines_of(std::size_t entries, std::size_t columns) {
-  const std::size_t lines = (entries + columns - 1) / columns;
-  return static_cast<double>(lines);
+int lines_of(std::size_t entries, std::size_t columns) {
+  return static_cast<int>((entries + columns - 1) / columns);
+}
+
+/// The height of a figure with a key of so many lines, px.
+int height_with(int lines, int height) {
+  constexpr int usual_lines = 2;
+  return height + key_line * std::max(lines - usual_lines, 0);
 }
 
 }  // namespace
@@ -49,16 +54,18 @@ std::string quoted_tic(const std::string& text) {
   return gnuplot_text(format);
 }
 
-Panels::Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
+Panels::Panels(Figure& figure, std::size_t columns, std::vector<double> heights,
                std::vector<KeyEntry> key, PanelGaps gaps)
     : width_(figure.width),
-      height_(figure.height),
       columns_(columns),
       heights_(std::move(heights)),
       key_(std::move(key)),
       key_columns_(columns_of(key_)),
       top_(gaps.above + 12.0 + key_line * lines_of(key_.size(), key_columns_)),
-      gaps_(gaps) {}
+      gaps_(gaps) {
+  figure.height = height_with(lines_of(key_.size(), key_columns_), figure.height);
+  height_ = figure.height;
+}
 
 std::string Panels::place(std::size_t column, std::size_t row) const {
   const double wide = width_ / static_cast<double>(columns_);
@@ -109,17 +116,21 @@ int mark_of(std::size_t k) {
   return marks[k % marks.size()];
 }
 
+std::string series_style(std::size_t k, std::size_t as) {
+  constexpr std::array<const char*, most_series> colours = {
+      "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
+      "#000000", "#882255", "#999933", "#332288", "#44AA99", "#661100"};
+  return "set style line " + cell(k + 1) + " lc rgb '" + colours[as % colours.size()] + "' pt " +
+         cell(mark_of(k)) + " ps 0.75 lw 1.6\n";
+}
+
 std::string figure_style() {
+  // A box of no width about points with bars makes gnuplot 5.4 fall back to one that it erases.
   std::string text =
       "set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n"
-      "set bars small\nset samples 400\nset pointintervalbox 0\n"
+      "set bars small\nset samples 400\nset pointintervalbox 0.0001\n"
       "set errorbars lw 1.2\n";
-  constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                     "#E69F00", "#56B4E9", "#000000"};
-  for (std::size_t k = 0; k < most_series; ++k) {
-    text += "set style line " + cell(k + 1) + " lc rgb '" + colours[k % 7] + "' pt " +
-            cell(mark_of(k)) + " ps 0.75 lw 1.6\n";
-  }
+  for (std::size_t k = 0; k < most_series; ++k) text += series_style(k, k);
   return text + frame + "set style line 20 lc rgb '#777777' pt 7 ps 0.35 lw 1\n";
 }
 

@@ -1,8 +1,8 @@
 // A figure: the numbers it shows, as CSV, and the commands by which gnuplot draws them.
 //
-// Colours are those of Okabe and Ito, which people with any colour vision tell apart; series differ
-// in the shape of their points, too. Text of users stands in single quotes, where gnuplot neither
-// runs nor expands anything.
+// Colours are those of Okabe and Ito, then of Tol, which people with any colour vision tell apart;
+// series differ in the shape of their points, too. Text of users stands in single quotes, where
+// gnuplot neither runs nor expands anything.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct Figure {
   std::vector<std::pair<std::string, std::string>> tables = {};
   std::string commands = {};   ///< from `set multiplot` on, without terminal and output
   int width = 960;             ///< px, of the SVG
-  int height = 420;            ///< px
+  int height = 420;            ///< px, with a key of two lines
   std::string not_drawn = {};  ///< why there is nothing to see; empty if there is
 };
 
@@ -33,6 +33,9 @@ inline constexpr std::size_t most_series = 12;
 
 /// What gnuplot calls the mark (`pt`) of series k; after the last the first comes again.
 int mark_of(std::size_t k);
+
+/// Gives series k its mark and the colour of series `as`: "set style line 1 ...", counted from 1.
+std::string series_style(std::size_t k, std::size_t as);
 
 /// A string as gnuplot takes it, without line breaks.
 std::string gnuplot_text(const std::string& text);
@@ -59,8 +62,8 @@ struct KeyEntry {
 /// Part of a figure: panels side by side and above each other, below a strip with the key.
 class Panels {
  public:
-  /// `heights`: share of each row of panels.
-  Panels(const Figure& figure, std::size_t columns, std::vector<double> heights,
+  /// `heights`: share of each row of panels. The figure's height grows with the key.
+  Panels(Figure& figure, std::size_t columns, std::vector<double> heights,
          std::vector<KeyEntry> key, PanelGaps gaps = {});
 
   /// Places the panel in this column and row, counted from 0 and from above.

@@ -70,16 +70,22 @@ std::vector<double> places_of(const Axes& axes) {
   return places;
 }
 
-/// From 0 to the end of the highest error bar of these shares, with some room above.
-Range shares_shown(const Axes& axes, const std::string& of) {
-  std::vector<double> ends = {0.0};
+Bars shares_of(const Axes& axes, const std::string& of) {
+  Bars bars;
   for (const Group* group : groups_on(axes)) {
     for (const char* kind : kind_names) {
       const Spread& share = mean_of(*group, of + kind);
-      add_ends(share.mean, share.error, ends);
+      bars.push_back({share.mean, share.error});
     }
   }
-  return {0.0, range_of({0.0, *std::max_element(ends.begin(), ends.end())}, 0.05).high};
+  return bars;
+}
+
+/// From 0 to the end of the highest error bar of these shares, with some room above.
+Range shares_shown(const Axes& axes, const std::string& of) {
+  double highest = 0.0;
+  for (const double end : shown_ends(shares_of(axes, of))) highest = std::max(highest, end);
+  return {0.0, range_of({0.0, highest}, 0.05).high};
 }
 
 /// The groups whose contacts have kinds, those of polyhedra that press on each other; series
@@ -136,8 +142,9 @@ Figure contacts_figure(const Axes& axes) {
                 .title = "Kinds of contact",
                 .caption =
                     "Shares of the force-bearing contacts between polyhedra, and of the "
-                    "force that they carry; bars are standard errors."};
-  figure.caption += left_out_text(drawn, figure.name) + thinned_text(drawn, all);
+                    "force that they carry"};
+  figure.caption += bars_text({shares_of(drawn, "contacts_"), shares_of(drawn, "force_")}) + "." +
+                    left_out_text(drawn, figure.name) + thinned_text(drawn, all);
   figure.tables = {{"contacts.csv", kinds_csv(drawn)}};
   if (shown_series(axes).empty()) return undrawn(std::move(figure), "no packing has settled");
   if (drawn.series.empty()) return undrawn(std::move(figure), "no grains press on each other");

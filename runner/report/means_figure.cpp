@@ -33,7 +33,7 @@ std::vector<std::pair<double, double>> points_of(const PublishedCurve& curve) {
   const auto [least, most] = std::minmax_element(curve.widths.begin(), curve.widths.end());
   const double first = 1.0 / *most, last = 1.0 / *least;
   std::vector<std::pair<double, double>> points;
-  for (int k = 0; k <= steps; ++k) {
+  for (int k = 0; k <= (first < last ? steps : 0); ++k) {
     const double x = first + (last - first) * k / steps;
     const double value = value_of_formula(curve.formula.text, 1.0 / x);
     if (std::isfinite(value))
@@ -67,11 +67,18 @@ Quantity panel_of(const PublishedCurve& curve) {
   return curve.quantity == "Z" ? Quantity::coordination : Quantity::solid_fraction;
 }
 
-/// Greys and browns, apart from the colours of series; twelve of them.
-std::string style_of_curve(std::size_t k) {
+/// Whether the formula holds at a single width, so that it is a point.
+bool is_point(const PublishedCurve& curve) {
+  return !curve.points.empty() && curve.points.front().first == curve.points.back().first;
+}
+
+/// Greys and browns, apart from the colours of series; twelve of them. Points are stars.
+std::string style_of_curve(const std::vector<PublishedCurve>& curves, std::size_t k) {
   constexpr std::array colours = {"#7a7a7a", "#8a6d3b", "#303030"};
-  return std::string("lines lc rgb '") + colours.at(k / 4 % colours.size()) + "' lw 1.4 dt " +
-         cell(k % 4 + 2);
+  const std::string colour =
+      std::string("lc rgb '") + colours.at(k / 4 % colours.size()) + "' lw 1.4";
+  return is_point(curves[k]) ? "points " + colour + " pt 3 ps 1.6"
+                             : "lines " + colour + " dt " + cell(k % 4 + 2);
 }
 
 std::string curves_csv(const std::vector<PublishedCurve>& curves) {
@@ -91,6 +98,10 @@ struct FittedSeries {
 };
 
 bool is_determined(const std::optional<WallFit>& fit) { return fit && fit->not_determined.empty(); }
+
+bool is_doubted(const std::optional<WallFit>& fit) {
+  return is_determined(fit) && !fit->doubt.empty();
+}
 
 /// The family whose packings between walls are those of the series; null if there is none.
 const Family* family_of(const Series& series, const std::vector<Family>& families) {
@@ -129,11 +140,15 @@ void thin_residuals(std::vector<FittedSeries>& all) {
 
 /// Where packings without a gap between walls stand on the axis.
 std::string places_text(const Axes& axes) {
-  const auto is_tube = [](const Series& series) { return series.groups.front()->job.box.is_tube; };
-  const auto tubes = std::count_if(axes.series.begin(), axes.series.end(), is_tube);
-  if (static_cast<std::size_t>(tubes) == axes.series.size()) return "";
-  return std::string(" Packings without walls along y stand at d / W = 0") +
-         (tubes > 0 ? ", tubes at d / D." : ".");
+  bool has_open = false, has_tubes = false, has_gaps = false;
+  for (const Group* group : groups_on(axes)) {
+    const Box& box = group->job.box;
+    has_tubes = has_tubes || box.is_tube;
+    has_open = has_open || (!box.is_tube && box.y == Boundary::periodic);
+    has_gaps = has_gaps || (!box.is_tube && box.y == Boundary::walls);
+  }
+  const std::string text = has_open ? " Packings without walls along y stand at d / W = 0." : "";
+  return text + (has_tubes && (has_open || has_gaps) ? " Tubes stand at d / D." : "");
 }
 
 /// Whether its packings lack what is along the axis, so that it has no point.
@@ -214,12 +229,11 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
 /// Everything that the panel of a quantity shows, with its errors.
 std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>& all,
                                const std::vector<PublishedCurve>& curves, Quantity quantity) {
-  std::vector<double> heights;
+  std::vector<double> heights = shown_ends(bars_of(axes, quantity));
   for (const FittedSeries& one : all) {
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
   }
-  add_ends_of_all(axes, quantity, heights);
   // Of curves what is near the points: a formula may go anywhere where it does not hold.
   const Range near = range_of(heights, 0.5);
   for (const PublishedCurve& curve : curves) {
@@ -239,7 +253,7 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
   for (std::size_t k = 0; k < curves.size(); ++k) {
     if (panel_of(curves[k]) != quantity) continue;
     parts.push_back(
-        plot_part({published_table, "curve", k + 1, "x", "value", "", style_of_curve(k)}));
+        plot_part({published_table, "curve", k + 1, "x", "value", "", style_of_curve(curves, k)}));
   }
   if (has_other_series(axes)) {
     parts.push_back(plot_part({points_table, "series", 0, "x", column, "", other_series_style}));
@@ -249,7 +263,8 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
     const auto& fit = is_phi ? all[k].phi : all[k].z;
     if (is_determined(fit)) {
       parts.push_back(cell(fit->bulk.value) + " - (" + cell(fit->slope.value) +
-                      ") * (x >= 0 ? x : NaN) with lines" + style + " lw 1.4 notitle");
+                      ") * (x >= 0 ? x : NaN) with lines" + style +
+                      (is_doubted(fit) ? " lw 1 dt 2" : " lw 1.4") + " notitle");
     } else if (!all[k].series->is_scattered) {
       parts.push_back(plot_part(
           {points_table, "series", k + 1, "x", column, "", "lines" + style + " lw 0.8 dt 3"}));
@@ -263,16 +278,18 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
 std::string residual_panel(const std::vector<FittedSeries>& all, Quantity quantity) {
   const bool is_phi = quantity == Quantity::solid_fraction;
   std::vector<std::string> parts = {"0 with lines lc rgb '#444444' lw 1 notitle"};
-  double largest = 0.0;
+  Bars bars;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto& fit = is_phi ? all[k].phi : all[k].z;
     if (!is_determined(fit)) continue;
     for (const FitPoint& point : fit->points) {
-      largest = std::max(largest, std::abs(point.mean - point.fitted) + point.error);
+      bars.push_back({point.mean - point.fitted, point.error});
     }
     parts.push_back(plot_part({residuals_table, "series", k + 1 + (is_phi ? 0 : all.size()), "x",
                                "residual", "error", "points ls " + cell(k + 1)}));
   }
+  double largest = 0.0;
+  for (const double end : shown_ends(bars)) largest = std::max(largest, std::abs(end));
   return few_tics_command("y", largest) + plot_command(parts);
 }
 
@@ -298,18 +315,17 @@ std::vector<KeyEntry> means_key(const Axes& axes, const std::vector<PublishedCur
     if (has_points) entries.push_back(all[k]);
   }
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    entries.push_back({style_of_curve(k), curves[k].formula.name});
+    entries.push_back({style_of_curve(curves, k), curves[k].formula.name});
   }
   return entries;
 }
 
-std::string means_commands(const Axes& axes, const Figure& figure,
-                           const std::vector<FittedSeries>& all,
+std::string means_commands(const Axes& axes, Figure& figure, const std::vector<FittedSeries>& all,
                            const std::vector<PublishedCurve>& curves, bool has_fits) {
   const Panels panels(figure, 2, has_fits ? std::vector{0.74, 0.26} : std::vector{1.0},
                       means_key(axes, curves),
                       {.right = 104.0, .above = is_over_width(axes) ? 58.0 : 8.0});
-  std::string text = "set multiplot\n" + panels.key();
+  std::string text = reference_colours(axes) + "set multiplot\n" + panels.key();
   for (const Quantity quantity : {Quantity::solid_fraction, Quantity::coordination}) {
     const std::size_t column = quantity == Quantity::solid_fraction ? 0 : 1;
     text += panels.place(column, 0) + abscissa_commands(axes, !has_fits, true) +
@@ -343,6 +359,29 @@ std::string fits_text(const std::vector<FittedSeries>& all) {
   return text;
 }
 
+/// Which lines do not hold.
+std::string doubts_text(const std::vector<FittedSeries>& all) {
+  std::string names;
+  for (const FittedSeries& one : all) {
+    const bool phi = is_doubted(one.phi), z = is_doubted(one.z);
+    if (!phi && !z) continue;
+    names += (names.empty() ? "" : "; ") + one.series->name +
+             (phi && z ? " (φ and Z)"
+              : phi    ? " (φ)"
+                       : " (Z)");
+  }
+  return names.empty() ? "" : " Dashed, since the straight line does not hold: " + names + ".";
+}
+
+std::string published_text(const std::vector<PublishedCurve>& curves) {
+  if (curves.empty()) return "";
+  const auto points = std::count_if(curves.begin(), curves.end(), is_point);
+  return points == 0                    ? " Dashed: published formulas."
+         : points == std::ssize(curves) ? " Stars: published formulas at their only width."
+                                        : " Grey and brown: published formulas, as a star where "
+                                          "they hold at one width.";
+}
+
 }  // namespace
 
 Figure means_figure(const Axes& axes, const std::vector<Family>& families,
@@ -351,7 +390,10 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
   Figure figure{.name = "means",
                 .title = is_over_width(drawn) ? "What the walls cost"
                                               : "Solid fraction and coordination number",
-                .caption = "Means over the settled replicates; bars are their standard errors."};
+                .caption = "Means over the settled replicates" +
+                           bars_text({bars_of(drawn, Quantity::solid_fraction),
+                                      bars_of(drawn, Quantity::coordination)}) +
+                           "."};
   std::vector<FittedSeries> all = fitted(drawn, families);
   if (!thinned_text(drawn, axes).empty()) thin_residuals(all);
   if (all.empty()) return undrawn(std::move(figure), "no packing has settled");
@@ -363,13 +405,14 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
     figure.caption += " Lines: φ = φ_bulk - C / " + extent + " and Z = Z_bulk - C_Z / " + extent +
                       ", fitted to the packings " + (extent == "D" ? "in tubes" : "between walls") +
                       "; below, what the points differ from "
-                      "their line.";
+                      "their line." +
+                      doubts_text(all);
     figure.height = 560;
     figure.tables.emplace_back(residuals_table, residuals_csv(all));
   }
   const std::vector<PublishedCurve> curves = curves_of(drawn, comparisons);
   if (!curves.empty()) {
-    figure.caption += " Dashed: published formulas.";
+    figure.caption += published_text(curves);
     figure.tables.emplace_back(published_table, curves_csv(curves));
   }
   if (is_over_width(drawn)) figure.caption += places_text(drawn);

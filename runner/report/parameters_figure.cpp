@@ -47,9 +47,7 @@ std::string parameter_panel(const Axes& axes, const std::string& parameter,
 
 /// All values that the groups reach, with their errors.
 Range range_of_all(const Axes& axes, Quantity quantity) {
-  std::vector<double> ends;
-  add_ends_of_all(axes, quantity, ends);
-  return range_of(ends, 0.07);
+  return range_of(shown_ends(bars_of(axes, quantity)), 0.07);
 }
 
 Range range_of_parameter(const Axes& axes, const std::string& parameter) {
@@ -58,14 +56,14 @@ Range range_of_parameter(const Axes& axes, const std::string& parameter) {
   return range_of(values, 0.04);
 }
 
-std::string parameters_commands(const Axes& axes, const Figure& figure,
+std::string parameters_commands(const Axes& axes, Figure& figure,
                                 const std::vector<std::string>& parameters) {
   const std::vector<double> heights(parameters.size(),
                                     1.0 / static_cast<double>(parameters.size()));
   const Panels panels(figure, 2, heights, key_with_others(axes), {.right = 24.0, .row = 70.0});
   const std::string solid = range_command("y", range_of_all(axes, Quantity::solid_fraction)),
                     touching = range_command("y", range_of_all(axes, Quantity::coordination));
-  std::string text = "set multiplot\n" + panels.key();
+  std::string text = reference_colours(axes) + "set multiplot\n" + panels.key();
   for (std::size_t row = 0; row < parameters.size(); ++row) {
     const std::string& parameter = parameters[row];
     text += range_command("x", range_of_parameter(axes, parameter)) +
@@ -85,16 +83,19 @@ Figure parameters_figure(const Axes& axes) {
                 .title = "Over each parameter",
                 .caption =
                     "Solid fraction and coordination number of all groups over each number that "
-                    "is varied, whatever the others are; bars are standard errors."};
+                    "is varied, whatever the others are"};
   if (shown_series(axes).empty()) return undrawn(std::move(figure), "no packing has settled");
   std::vector<std::string> parameters = axes.scattered;
+  std::string first_text;
   if (parameters.size() > most_parameters) {
-    figure.caption += " The first " + cell(most_parameters) + " of " + cell(parameters.size()) +
-                      " are drawn; all are in the folder's groups.csv.";
+    first_text = " The first " + cell(most_parameters) + " of " + cell(parameters.size()) +
+                 " are drawn; all are in the folder's groups.csv.";
     parameters.resize(most_parameters);
   }
   const Axes drawn = thinned(axes, most_points / (2 * parameters.size()));
-  figure.caption += grey_series_text(drawn) + thinned_text(drawn, axes);
+  figure.caption += bars_text({bars_of(drawn, Quantity::solid_fraction),
+                               bars_of(drawn, Quantity::coordination)}) +
+                    "." + first_text + grey_series_text(drawn) + thinned_text(drawn, axes);
   figure.height = 120 + 230 * static_cast<int>(parameters.size());
   figure.tables = {{parameters_table, parameters_csv(drawn, parameters)}};
   figure.commands = parameters_commands(drawn, figure, parameters);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runner/report/figure.hpp"
 
@@ -26,6 +27,25 @@ std::vector<GroupWithCurves> spread_over(const std::vector<const Group*>& all, s
   std::vector<GroupWithCurves> chosen;
   for (const Group* group : evenly_spread(all, most)) chosen.emplace_back(*group, folder);
   return chosen;
+}
+
+bool has_error(const Bar& bar) {
+  return std::isfinite(bar.value) && std::isfinite(bar.error) && bar.error > 0.0;
+}
+
+/// How long a bar of these may be within a frame.
+double longest_shown(const Bars& bars) {
+  constexpr double many_bars = 3.0;
+  std::vector<double> values, errors;
+  for (const Bar& bar : bars) {
+    if (std::isfinite(bar.value)) values.push_back(bar.value);
+    if (has_error(bar)) errors.push_back(bar.error);
+  }
+  if (errors.empty()) return 0.0;
+  const auto middle = errors.begin() + std::ssize(errors) / 2;
+  std::nth_element(errors.begin(), middle, errors.end());
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return std::max(*high - *low, many_bars * *middle);
 }
 
 }  // namespace
@@ -109,12 +129,12 @@ std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most)
   return spread_over(mixtures, most, axes.folder);
 }
 
-std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups,
-                                   std::size_t longest) {
+std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups, std::size_t longest,
+                                   const Axes& axes) {
   std::vector<const Group*> plain;
   plain.reserve(groups.size());
   for (const GroupWithCurves& group : groups) plain.push_back(&*group);
-  return titles_of(plain, longest);
+  return titles_of(plain, longest, groups_on(axes));
 }
 
 std::string few_of_all_text(std::size_t shown, const Axes& axes) {
@@ -126,6 +146,18 @@ std::string series_cell(const Axes& axes, const Series& series) {
   const auto shown = shown_series(axes);
   const auto at = std::find(shown.begin(), shown.end(), &series);
   return at == shown.end() ? "" : cell(at - shown.begin() + 1);
+}
+
+std::string reference_colours(const Axes& axes) {
+  std::string text;
+  std::map<std::string, std::size_t> first_of;  // by family
+  const std::vector<const Series*> shown = shown_series(axes);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const std::string& family = shown[k]->groups.front()->family_name;
+    const auto [first, is_new] = first_of.emplace(family, k);
+    if (!is_new && !shown[k]->is_scattered) text += series_style(k, first->second);
+  }
+  return text;
 }
 
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
@@ -247,24 +279,47 @@ std::string few_tics_command(const std::string& axis, double extreme) {
 std::string decade_tics_command(const std::string& axis, double low, double high) {
   std::string tics;
   for (int power = -4; power < 8; ++power) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
+    for (int digit = 1; digit < 10; ++digit) {
       const double at = digit * std::pow(10.0, power);
-      if (at >= low && at <= high) tics += (tics.empty() ? "" : ", ") + cell(at);
+      if (at < low || at > high) continue;
+      const bool has_label = digit == 1 || digit == 2 || digit == 5;
+      tics += (tics.empty() ? "" : ", ") + (has_label ? cell(at) : "'' " + cell(at) + " 1");
     }
   }
   return tics.empty() ? "" : "set " + axis + "tics (" + tics + ")\n";
 }
 
-void add_ends(double value, double error, std::vector<double>& ends) {
-  const double reach = std::isfinite(error) ? error : 0.0;
-  ends.insert(ends.end(), {value - reach, value + reach});
-}
-
-void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends) {
+Bars bars_of(const Axes& axes, Quantity quantity) {
+  Bars bars;
   for (const Group* group : groups_on(axes)) {
     const Spread& spread = spread_of(*group, quantity);
-    add_ends(spread.mean, spread.error, ends);
+    bars.push_back({spread.mean, spread.error});
   }
+  return bars;
+}
+
+std::vector<double> shown_ends(const Bars& bars) {
+  const double longest = longest_shown(bars);
+  std::vector<double> ends;
+  for (const Bar& bar : bars) {
+    const double reach = has_error(bar) ? std::min(bar.error, longest) : 0.0;
+    ends.insert(ends.end(), {bar.value - reach, bar.value + reach});
+  }
+  return ends;
+}
+
+std::string bars_text(const std::vector<Bars>& panels, const std::string& of) {
+  bool have_errors = false, are_cut = false;
+  for (const Bars& bars : panels) {
+    const double longest = longest_shown(bars);
+    for (const Bar& bar : bars) {
+      have_errors = have_errors || has_error(bar);
+      are_cut = are_cut || (has_error(bar) && bar.error > longest);
+    }
+  }
+  if (!have_errors) return "";
+  return "; bars" + of + " are standard errors" +
+         (are_cut ? ", the longest of them cut at the frame" : "");
 }
 
 Range range_of(std::vector<double> values, double room) {

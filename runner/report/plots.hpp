@@ -65,14 +65,18 @@ std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t 
 /// The same for mixtures.
 std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most);
 
-/// titles_of these groups.
-std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups, std::size_t longest);
+/// titles_of these groups of the axes.
+std::vector<std::string> titles_of(const std::vector<GroupWithCurves>& groups, std::size_t longest,
+                                   const Axes& axes);
 
 /// " 6 of 120 groups are shown."; empty if all are.
 std::string few_of_all_text(std::size_t shown, const Axes& axes);
 
 /// The number of a series of the axes among those shown, from 1; empty if it is not.
 std::string series_cell(const Axes& axes, const Series& series);
+
+/// Gives packings without walls, whose series is of the same family as another, its colour.
+std::string reference_colours(const Axes& axes);
 
 /// A key entry for each of the shown series.
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style);
@@ -114,18 +118,29 @@ std::string panels_across(const Panels& panels, std::size_t k, const std::string
 /// Tics at 0 and one to each side, for values that lie around 0, and their range.
 std::string few_tics_command(const std::string& axis, double extreme);
 
-/// Tics at 1, 2 and 5 of each decade of a logarithmic axis.
+/// Tics at each digit of the decades of a logarithmic axis, with labels at 1, 2 and 5.
 std::string decade_tics_command(const std::string& axis, double low, double high);
 
 struct Range {
   double low = 0.0, high = 1.0;
 };
 
-/// Adds both ends of an error bar, or the value alone if it has no error.
-void add_ends(double value, double error, std::vector<double>& ends);
+/// A value and the length of its error bar to each side; none where the error is not finite.
+struct Bar {
+  double value = 0.0, error = 0.0;
+};
+using Bars = std::vector<Bar>;
 
-/// The same for the means of all groups.
-void add_ends_of_all(const Axes& axes, Quantity quantity, std::vector<double>& ends);
+/// The means of all groups.
+Bars bars_of(const Axes& axes, Quantity quantity);
+
+/// The ends of the bars that an axis reaches to. A bar is cut at the farther of three median bars
+/// and what the values span: one value that is hardly known does not press all others into a line.
+std::vector<double> shown_ends(const Bars& bars);
+
+/// What a caption says of bars, "; bars are standard errors", with `of` behind the word: those that
+/// are cut, too; nothing where there is none.
+std::string bars_text(const std::vector<Bars>& panels, const std::string& of = "");
 
 /// The range of these values with some room at both ends, a share of it.
 Range range_of(std::vector<double> values, double room);

@@ -31,16 +31,33 @@ std::string bins_csv(const std::vector<GroupWithCurves>& groups) {
   return text;
 }
 
-/// All that the panels of a row show, so that they have one range.
-std::vector<double> values_in(const std::vector<GroupWithCurves>& groups,
-                              std::initializer_list<Spread MeanBin::*> spreads) {
-  std::vector<double> values;
+enum class WithBars { no, yes };
+
+/// What the panels of a row show of these, so that they have one range.
+Bars bars_in(const std::vector<GroupWithCurves>& groups, Spread MeanBin::*spread, WithBars with) {
+  Bars bars;
   for (const GroupWithCurves& group : groups) {
     for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
-      for (const auto spread : spreads) values.push_back((bin.*spread).mean);
+      const Spread& one = bin.*spread;
+      bars.push_back({one.mean, with == WithBars::yes ? one.error : no_number});
     }
   }
-  return values;
+  return bars;
+}
+
+/// The points with bars.
+Bars measured_bars(const std::vector<GroupWithCurves>& groups) {
+  return bars_in(groups, &MeanBin::large, WithBars::yes);
+}
+
+/// The range of a row of panels.
+Range range_of_row(const std::vector<Bars>& all) {
+  std::vector<double> ends;
+  for (const Bars& bars : all) {
+    const std::vector<double> some = shown_ends(bars);
+    ends.insert(ends.end(), some.begin(), some.end());
+  }
+  return range_of(ends, 0.06);
 }
 
 /// The curve that describes the layers of large grains, from both walls to the middle.
@@ -79,15 +96,23 @@ std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool w
   return plot_command(parts);
 }
 
-std::string coordination_panel(std::size_t k) {
-  return plot_command(
-      {plot_part(
-           {bins_table, "panel", k + 1, "y", "coordination_with_walls", "", "lines ls 5 lw 1.4"}),
-       plot_part({bins_table, "panel", k + 1, "y", "coordination", "", "lines ls 1 lw 1.4"})});
+/// Marks show bins whose neighbours have no grains, too.
+constexpr const char* without_walls_style = "linespoints ls 1 lw 1.4 ps 0.3";
+constexpr const char* with_walls_style = "linespoints ls 5 lw 1.4 ps 0.3";
+
+std::string coordination_panel(std::size_t k, const Group& group) {
+  const auto curve = [&](const char* column, const char* style) {
+    return plot_part({bins_table, "panel", k + 1, "y", column, "", style});
+  };
+  std::vector<std::string> parts = {curve("coordination", without_walls_style)};
+  if (group.job.box.y == Boundary::walls) {
+    parts.insert(parts.begin(), curve("coordination_with_walls", with_walls_style));
+  }
+  return plot_command(parts);
 }
 
-std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>& groups,
-                        const std::vector<DecayFit>& fits) {
+std::string commands_of(Figure& figure, const std::vector<GroupWithCurves>& groups,
+                        const std::vector<DecayFit>& fits, const Axes& axes) {
   const bool with_all = has_classes(groups);
   std::vector<KeyEntry> key = {{"points ls 20", measured_phi(groups)}};
   if (std::any_of(fits.begin(), fits.end(),
@@ -95,20 +120,25 @@ std::string commands_of(const Figure& figure, const std::vector<GroupWithCurves>
     key.push_back({"lines ls 2", "damped cosine"});
   }
   if (with_all) key.push_back({"lines ls 3", "φ of all grains"});
-  key.push_back({"lines ls 1", "Z, walls not counted"});
-  key.push_back({"lines ls 5", "Z, walls counted"});
+  if (bins_across(groups) == std::set{BinsAcross::slices_without_walls}) {
+    key.push_back({without_walls_style, "Z"});
+  } else {
+    key.push_back({without_walls_style, "Z, walls not counted"});
+    key.push_back({with_walls_style, "Z, walls counted"});
+  }
   const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
   std::string text = "set multiplot\n" + panels.key();
-  const std::string solid = range_command(
-      "y", range_of(values_in(groups, {&MeanBin::solid_fraction, &MeanBin::large}), 0.06));
-  const std::string touching = range_command(
-      "y", range_of(values_in(groups, {&MeanBin::coordination, &MeanBin::coordination_with_walls}),
-                    0.06));
-  const auto titles = titles_of(groups, panels.title_length());
+  const auto row = [&](const Bars& bars, Spread MeanBin::*of_all) {
+    return range_command("y", range_of_row({bars, bars_in(groups, of_all, WithBars::no)}));
+  };
+  const std::string solid = row(measured_bars(groups), &MeanBin::solid_fraction);
+  const std::string touching =
+      row(bars_in(groups, &MeanBin::coordination, WithBars::no), &MeanBin::coordination_with_walls);
+  const auto titles = titles_of(groups, panels.title_length(), axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     text += panels_across(panels, k, titles[k], *groups[k],
                           solid + solid_panel(k, fits[k], groups[k]->job.box.width, with_all),
-                          touching + coordination_panel(k));
+                          touching + coordination_panel(k, *groups[k]));
   }
   return text;
 }
@@ -133,11 +163,11 @@ std::string decay_text(const DecayFit& fit, const GivenUnits& units) {
 }
 
 std::string decays_text(const std::vector<GroupWithCurves>& groups,
-                        const std::vector<DecayFit>& fits, const GivenUnits& units) {
+                        const std::vector<DecayFit>& fits, const Axes& axes) {
   std::string text;
-  const auto titles = titles_of(groups, longest_entry);
+  const auto titles = titles_of(groups, longest_entry, axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    text += " " + titles[k] + ": " + decay_text(fits[k], units) + ".";
+    text += " " + titles[k] + ": " + decay_text(fits[k], axes.units) + ".";
   }
   return text;
 }
@@ -159,12 +189,12 @@ Figure profiles_figure(const Axes& axes) {
   for (const GroupWithCurves& group : groups) fits.push_back(decay_of(*group, GrainClass::large));
   figure.height = 520;
   const std::string few = few_of_all_text(groups.size(), axes);
-  figure.caption = "Solid fraction and coordination number of " + bins_text(bins) + "; bars at " +
-                   measured_phi(groups) + " are standard errors." + curve_text(bins) +
-                   decays_text(groups, fits, axes.units) +
+  figure.caption = "Solid fraction and coordination number of " + bins_text(bins) +
+                   bars_text({measured_bars(groups)}, " at " + measured_phi(groups)) + "." +
+                   curve_text(bins) + decays_text(groups, fits, axes) +
                    (few.empty() ? "" : few + " The others are in the folder's profiles.csv.");
   figure.tables = {{bins_table, bins_csv(groups)}};
-  figure.commands = commands_of(figure, groups, fits);
+  figure.commands = commands_of(figure, groups, fits, axes);
   return figure;
 }
 

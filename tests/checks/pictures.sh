@@ -48,4 +48,7 @@ expect_points gap-tolerance.svg gpPt6 9 # two packings at four gaps
 line=$(awk -F, '$2 == "coordination" && $3 == "determined" { printf "%.3f - %.2f d / W", $8, $10 }' out/fits.csv)
 [ -n "$line" ] || fail "fits.csv has no line of Z"
 grep -qF -- "$line" wall-effect.svg || fail "the line of wall-effect.svg is not that of fits.csv"
+# Nor does it erase anything about the points of figures.
+white=$(grep -h "<use xlink:href=.*'#FFFFFF'" out/figures/*.svg | grep -vc 'scale(0\.00)' || true)
+[ "$white" -eq 0 ] || fail "figures have $white white points"
 printf 'pictures: all scripts of configs/ draw what the tables hold\n'

@@ -264,13 +264,13 @@ TEST_CASE("numbers in titles are short where there is no room, unless they would
           "[report]") {
   std::vector<Row> rows = {row_at("a", 6, 0.160044), row_at("b", 6, 0.168433)};
   std::vector<Group> groups = groups_of(rows);
-  CHECK(titles_of({&groups[0], &groups[1]}, 27) ==
+  CHECK(titles_of({&groups[0], &groups[1]}, 27, {&groups[0], &groups[1]}) ==
         std::vector<std::string>{"MSP, small_share = 0.160044", "MSP, small_share = 0.168433"});
-  CHECK(titles_of({&groups[0], &groups[1]}, 25) ==
+  CHECK(titles_of({&groups[0], &groups[1]}, 25, {&groups[0], &groups[1]}) ==
         std::vector<std::string>{"MSP, small_share = 0.16", "MSP, small_share = 0.1684"});
   rows = {row_at("a", 6, 0.160041), row_at("b", 6, 0.160042)};
   groups = groups_of(rows);
-  CHECK(titles_of({&groups[0], &groups[1]}, 22) ==
+  CHECK(titles_of({&groups[0], &groups[1]}, 22, {&groups[0], &groups[1]}) ==
         std::vector<std::string>{"small_share = 0.160041", "small_share = 0.160042"});
 }
 
@@ -296,15 +296,30 @@ TEST_CASE("titles in a figure leave out what all share before they lose what tel
   for (Row& row : rows) row.job.label = "two sizes of glass beads";
   const std::vector<Group> groups = groups_of(rows);
   const std::vector<const Group*> shown = {&groups[0], &groups[1]};
-  CHECK(titles_of(shown, 60) ==
+  CHECK(titles_of(shown, 60, shown) ==
         std::vector<std::string>{"two sizes of glass beads, W = 4.25, small_share = 0.1",
                                  "two sizes of glass beads, W = 4.25, small_share = 0.2"});
-  CHECK(titles_of(shown, 43) ==
+  CHECK(titles_of(shown, 43, shown) ==
         std::vector<std::string>{"two sizes of glass beads, small_share = 0.1",
                                  "two sizes of glass beads, small_share = 0.2"});
-  CHECK(titles_of(shown, 30) == std::vector<std::string>{"two sizes …, small_share = 0.1",
-                                                         "two sizes …, small_share = 0.2"});
-  CHECK(titles_of(shown, 20) == std::vector<std::string>{"small_share = 0.1", "small_share = 0.2"});
+  CHECK(titles_of(shown, 30, shown) == std::vector<std::string>{"two sizes …, small_share = 0.1",
+                                                                "two sizes …, small_share = 0.2"});
+  CHECK(titles_of(shown, 20, shown) ==
+        std::vector<std::string>{"small_share = 0.1", "small_share = 0.2"});
+}
+
+TEST_CASE("titles keep what the groups shown share with each other but not with the sweep",
+          "[report]") {
+  std::vector<Row> rows = {row_at("a", 4.25, 0.1), row_at("b", 4.25, 0.2), row_at("c", 6, 0.3)};
+  for (Row& row : rows) row.job.label = "two sizes of glass beads";
+  const std::vector<Group> groups = groups_of(rows);
+  const std::vector<const Group*> shown = {&groups[0], &groups[1]},
+                                  all = {&groups[0], &groups[1], &groups[2]};
+  CHECK(titles_of(shown, 40, all) ==
+        std::vector<std::string>{"two sizes …, W = 4.25, small_share = 0.1",
+                                 "two sizes …, W = 4.25, small_share = 0.2"});
+  CHECK(titles_of(shown, 20, all) ==
+        std::vector<std::string>{"small_share = 0.1", "small_share = 0.2"});  // no room for more
 }
 
 TEST_CASE("titles leave out what all of a label share before they lose the label", "[report]") {
@@ -313,10 +328,11 @@ TEST_CASE("titles leave out what all of a label share before they lose the label
   rows[1].job.label = rows[2].job.label = "two sizes";
   const std::vector<Group> groups = groups_of(rows);
   const std::vector<const Group*> shown = {&groups[0], &groups[1], &groups[2]};
-  CHECK(titles_of(shown, 40) == std::vector<std::string>{"mono, W = 4, small_share = 0",
-                                                         "two sizes, W = 4, small_share = 0.1",
-                                                         "two sizes, W = 6, small_share = 0.1"});
-  CHECK(titles_of(shown, 16) ==
+  CHECK(titles_of(shown, 40, shown) ==
+        std::vector<std::string>{"mono, W = 4, small_share = 0",
+                                 "two sizes, W = 4, small_share = 0.1",
+                                 "two sizes, W = 6, small_share = 0.1"});
+  CHECK(titles_of(shown, 16, shown) ==
         std::vector<std::string>{"mono, W = 4", "two sizes, W = 4", "two sizes, W = 6"});
 }
 

@@ -73,7 +73,8 @@ TEST_CASE("text in a figure's commands cannot end its quotes or the line", "[rep
 TEST_CASE("keys have the columns that gnuplot finds room for, whatever the characters",
           "[report]") {
   const auto key_of = [](const std::string& title) {
-    return Panels(Figure{}, 1, {1.0}, {{"points ls 1", title}, {"points ls 2", "b"}}).key();
+    Figure figure;
+    return Panels(figure, 1, {1.0}, {{"points ls 1", title}, {"points ls 2", "b"}}).key();
   };
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
@@ -88,9 +89,51 @@ TEST_CASE("keys have the columns that gnuplot finds room for, whatever the chara
 TEST_CASE("long entries of a key keep their beginning and what tells them apart", "[report]") {
   const std::string begin = "glass beads with a coating of the second kind, batch ";
   const std::vector<KeyEntry> key = {{"points ls 1", begin + "7"}, {"points ls 2", begin + "8"}};
-  CHECK_THAT(Panels(Figure{}, 1, {1.0}, key).key(),
+  Figure figure;
+  CHECK_THAT(Panels(figure, 1, {1.0}, key).key(),
              Catch::Contains("'glass beads with a c… second kind, batch 7'") &&
                  Catch::Contains("'glass beads with a c… second kind, batch 8'"));
+}
+
+TEST_CASE("a figure grows with its key, so that its panels keep their height", "[report]") {
+  const auto height_with = [](std::size_t entries) {
+    Figure figure;
+    const std::vector<KeyEntry> key(entries,
+                                    {"points ls 1", std::string(30, 'a')});  // in two columns
+    const Panels panels(figure, 1, {1.0}, key);
+    return figure.height;
+  };
+  CHECK(height_with(4) == Figure{}.height);
+  CHECK(height_with(13) == Figure{}.height + 5 * 20);
+}
+
+TEST_CASE("no two series have the same colour", "[report]") {
+  std::set<std::string> colours;
+  for (std::size_t k = 0; k < most_series; ++k) {
+    const std::string style = series_style(k, k);
+    colours.insert(style.substr(style.find('#'), 7));
+  }
+  CHECK(colours.size() == most_series);
+}
+
+TEST_CASE("axes reach to the ends of bars, but not of one beside which all others are nothing",
+          "[report]") {
+  using Ends = std::vector<double>;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(shown_ends({{6.0, 0.5}, {7.0, 0.25}, {5.0, none}}) == Ends{5.5, 6.5, 6.75, 7.25, 5.0, 5.0});
+  CHECK(shown_ends({{6.0, 0.125}, {6.25, 0.125}, {8.0, 10.5}}) ==
+        Ends{5.875, 6.125, 6.125, 6.375, 6.0, 10.0});  // the values span 2
+  CHECK(shown_ends({{6.0, 0.5}}) == Ends{5.5, 6.5});
+  CHECK(shown_ends({{6.0, 1.0}, {6.0, 2.0}}) == Ends{5.0, 7.0, 4.0, 8.0});  // alike, with bars
+  CHECK(bars_text({{{6.0, none}}}).empty());
+  CHECK(bars_text({{{6.0, 0.5}}}) == "; bars are standard errors");
+  CHECK(bars_text({{{6.0, 0.1}, {6.1, 0.1}, {6.2, 5.0}}}, " at Z") ==
+        "; bars at Z are standard errors, the longest of them cut at the frame");
+}
+
+TEST_CASE("a logarithmic axis shows all digits of its decades", "[report]") {
+  CHECK(decade_tics_command("x", 0.95, 11.0) ==
+        "set xtics (1, 2, '' 3 1, '' 4 1, 5, '' 6 1, '' 7 1, '' 8 1, '' 9 1, 10)\n");
 }
 
 TEST_CASE("series of kinds of contact have marks of their own", "[report]") {
@@ -260,6 +303,40 @@ TEST_CASE("the means over the width have the line of fits.csv and its residuals"
   CHECK(means.commands.find("means-residuals.csv") != std::string::npos);
 }
 
+TEST_CASE("a line that does not hold is dashed, and the caption says so", "[report]") {
+  std::vector<Row> rows = wall_rows();
+  const auto means_of = [&] { return figure_called(figures_of(rows, analyse(rows), {}), "means"); };
+  CHECK_THAT(means_of().caption, !Catch::Contains("does not hold"));
+  CHECK_THAT(means_of().commands, !Catch::Contains(" lw 1 dt 2 notitle"));
+  for (Row& row : rows) {
+    if (row.job.box.width == 8.0) row.outcome->result.solid_fraction -= 0.02;
+  }
+  CHECK_THAT(means_of().caption,
+             Catch::Contains(" Dashed, since the straight line does not hold: MSP (φ)."));
+  CHECK_THAT(means_of().commands, Catch::Contains("with lines ls 1 lw 1 dt 2 notitle"));
+}
+
+TEST_CASE("packings without walls have the colour of the line that they belong to", "[report]") {
+  std::vector<Row> rows = wall_rows();
+  const std::vector<Figure> alone = figures_of(rows, analyse(rows), {});
+  CHECK_THAT(figure_called(alone, "means").commands, Catch::StartsWith("set multiplot"));
+  CHECK_THAT(figure_called(alone, "means").caption, !Catch::Contains("Packings without walls"));
+  rows.push_back(settled_row("p", 16, 0.64, 6.1, Boundary::periodic));
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  for (const char* name : {"means", "effort"}) {
+    CHECK_THAT(figure_called(figures, name).commands, Catch::StartsWith(series_style(1, 0)));
+  }
+  CHECK_THAT(figure_called(figures, "means").caption,
+             Catch::Contains(" Packings without walls along y stand at d / W = 0."));
+}
+
+TEST_CASE("captions speak of bars where there are any", "[report]") {
+  const std::vector<Row> one = {settled_row("a", 4, 0.6, 5.0), settled_row("b", 5, 0.61, 5.1)};
+  for (const Figure& figure : figures_of(one, analyse(one), {})) {
+    CHECK_THAT(figure.caption, !Catch::Contains("bars"));
+  }
+}
+
 TEST_CASE("beside a decay length stands where a damped cosine does not describe the layers",
           "[report]") {
   const auto caption_of = [](double wave) {
@@ -287,8 +364,13 @@ TEST_CASE("the key of the layers has what is drawn", "[report]") {
   CHECK_THAT(of_classes.commands, Catch::Contains("title 'φ of large grains'") &&
                                       Catch::Contains("title 'φ of all grains'"));
   CHECK_THAT(of_classes.caption, Catch::Contains("bars at φ of large grains are"));
+  CHECK_THAT(of_classes.commands,
+             Catch::Contains("with linespoints ls 1 lw 1.4 ps 0.3 notitle") &&  // also a bin alone
+                 Catch::Contains("'Z, walls counted'"));
   rows.resize(1);
   CHECK_THAT(profiles_of(rows).commands, !Catch::Contains("damped cosine"));
+  rows[0].job.box.y = Boundary::periodic;
+  CHECK_THAT(profiles_of(rows).commands, !Catch::Contains("walls") && Catch::Contains("title 'Z'"));
   const std::vector<Row> many = random_rows();
   CHECK_THAT(profiles_of(many).caption,
              Catch::EndsWith(" 3 of 20 groups are shown. The others are in the folder's "
@@ -387,6 +469,19 @@ TEST_CASE("published formulas are drawn beside the means, each once, where they 
   CHECK_THAT(csv, !Catch::Contains("\n3,"));
   CHECK(std::none_of(figures.begin(), figures.end(),
                      [](const Figure& figure) { return figure.name == "published"; }));
+}
+
+TEST_CASE("a published formula of a single width is a star", "[report]") {
+  const std::vector<Row> rows = wall_rows();
+  const Analysis analysis = analyse(rows);
+  Reference reference;
+  reference.families = {
+      {{}, {{"phi", 0, "", std::nullopt, "", PublishedFormula{"0.6 + 0/W", "at 8", 7, 9, {}}}}}};
+  const std::vector<Figure> figures = figures_of(rows, analysis, compare_with(reference, analysis));
+  const Figure& means = figure_called(figures, "means");
+  CHECK_THAT(means.commands, Catch::Contains("NaN with points lc rgb '#7a7a7a' lw 1.4 pt 3") &&
+                                 Catch::Contains("title 'at 8'"));
+  CHECK_THAT(means.caption, Catch::Contains(" Stars: published formulas at their only width."));
 }
 
 TEST_CASE("the files of all figures have the names by which they are removed", "[report]") {
@@ -553,8 +648,8 @@ TEST_CASE("each component of a mixture has its curve from wall to wall", "[repor
   CHECK(cell_in(table, 3, "component") == "2");
   CHECK(cell_in(table, 4, "coordination").empty());
   CHECK_THAT(figure.commands,
-             Catch::Contains("NaN with lines ls 1 lw 1.4 dt 1 title 'cube'") &&
-                 Catch::Contains("NaN with lines ls 2 lw 1.4 dt 2 title 'sphere'"));
+             Catch::Contains("NaN with linespoints ls 1 lw 1.4 ps 0.45 title 'cube'") &&
+                 Catch::Contains("NaN with linespoints ls 2 lw 1.4 ps 0.45 title 'sphere'"));
   const std::vector<Row> others = {polyhedra_row("b", 5)};
   for (const Figure& other : figures_of(others, analyse(others), {})) {
     CHECK(other.name != "components");
