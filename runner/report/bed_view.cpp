@@ -6,10 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runner/export/exported_bed.hpp"
 #include "runner/export/surfaces.hpp"
+#include "runner/report/axes.hpp"
 #include "runner/report/html.hpp"
 #include "runner/report/picture.hpp"
 #include "runner/report/templates.hpp"
+#include "runner/tables/component_names.hpp"
+#include "runner/tables/csv.hpp"
 
 namespace grainsweep {
 namespace {
@@ -73,6 +77,21 @@ std::string forces_of(const StoredBed& bed, double largest_force) {
   return bytes;
 }
 
+std::string css_colour(const Colour& colour) {
+  return "rgb(" + cell(colour[0]) + "," + cell(colour[1]) + "," + cell(colour[2]) + ")";
+}
+
+/// A square of this colour, before its name.
+std::string square_of(const Colour& colour) {
+  return "<span class=\"scale square\" style=\"background:" + css_colour(colour) + "\"></span>";
+}
+
+std::string diameter_text(const SettledGrain& grain, const BedFacts& facts) {
+  const double d = facts.units ? facts.units->d : 1.0;
+  return short_number(2.0 * grain.radius * d) + " " +
+         (facts.units ? html_text(printed_unit(*facts.units)) : "d");
+}
+
 }  // namespace
 
 std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
@@ -100,6 +119,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
   json["walls"] =
       nlohmann::json::array({bed.box.x == Boundary::walls, bed.box.y == Boundary::walls});
   json["tube"] = bed.box.is_tube;
+  json["components"] = facts.components;
   if (bed.turned) {
     for (const Mesh& mesh : bed.turned->meshes) {
       const Mesh drawn = drawn_mesh(mesh, 1);  // 80 triangles of a sphere
@@ -116,21 +136,48 @@ std::size_t view_size(const StoredBed& bed) {
   return (bed.grains.size() * bytes + bed.forces.size() * 10) * 4 / 3;
 }
 
+std::string picture_key(const StoredBed& bed, const BedFacts& facts) {
+  std::string key;
+  if (has_components(bed)) {
+    for (std::size_t k = 0; k < facts.components.size(); ++k) {
+      key += square_of(component_colour(k)) + html_text(facts.components[k]) + " ";
+    }
+    return key;
+  }
+  const auto [smallest, largest] = std::minmax_element(
+      bed.grains.begin(), bed.grains.end(),
+      [](const SettledGrain& a, const SettledGrain& b) { return a.radius < b.radius; });
+  if (smallest == largest) return "";
+  const std::string low = diameter_text(*smallest, facts), high = diameter_text(*largest, facts);
+  if (smallest->radius == largest->radius) return square_of(colour_of_one_size()) + "all " + low;
+  for (const Colour& colour : size_colours()) key += (key.empty() ? "" : ",") + css_colour(colour);
+  return low + "<span class=\"scale\" style=\"background:linear-gradient(to right," + key +
+         ")\"></span>" + high;
+}
+
 std::string bed_section(const BedView& view) {
   std::string data;
   for (const std::string& bed : view.beds) data += bed;
+  const std::string left_out = view.beds.size() < view.all
+                                   ? " Beds of " + cell(view.beds.size()) + " of " +
+                                         cell(view.all) + " parameter sets are here."
+                                   : "";
   return filled(templates::bed_html, {{"title", html_text(view.title)},
                                       {"picture", data_uri("image/png", view.picture)},
+                                      {"key", view.key},
+                                      {"left_out", left_out},
                                       {"data", data}});
 }
 
 std::string bed_page(const StoredBed& bed, const BedFacts& facts) {
   const std::string picture = picture_of(bed, picture_width, picture_height);
-  return filled(templates::view_html,
-                {{"head", html_head(facts.title)},
-                 {"title", html_text(facts.title)},
-                 {"bed", bed_section({facts.title, picture, {bed_element(bed, facts)}})},
-                 {"scripts", bed_scripts()}});
+  return filled(
+      templates::view_html,
+      {{"head", html_head(facts.title)},
+       {"title", html_text(facts.title)},
+       {"bed",
+        bed_section({facts.title, picture, picture_key(bed, facts), {bed_element(bed, facts)}})},
+       {"scripts", bed_scripts()}});
 }
 
 std::string bed_scripts() {
@@ -141,7 +188,7 @@ std::string bed_scripts() {
 
 BedFacts facts_of(const JobFacts& job, const std::string& title) {
   const double limit = small_class_limit(job);
-  return {title, std::isfinite(limit) ? limit : 0.0, {}};
+  return {title, std::isfinite(limit) ? limit : 0.0, {}, component_names(job)};
 }
 
 }  // namespace grainsweep

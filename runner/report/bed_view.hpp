@@ -15,6 +15,7 @@ struct BedFacts {
   std::string title;
   double small_limit = 0.0;  ///< grains of a smaller radius are small, d; 0 if all are of one kind
   GivenUnits units = {};     ///< of the lengths shown; d where there are none
+  std::vector<std::string> components = {};  ///< names, of a mixture
 };
 
 /// The facts of a packing's bed, with this title.
@@ -34,8 +35,13 @@ inline constexpr int picture_width = 1200, picture_height = 790;
 struct BedView {
   std::string title;              ///< of the first bed
   std::string picture;            ///< PNG of it
+  std::string key;                ///< as from picture_key
   std::vector<std::string> beds;  ///< as from bed_element
+  std::size_t all = 0;            ///< how many there are, with those that are left out
 };
+
+/// What the colours of the picture stand for, as HTML.
+std::string picture_key(const StoredBed& bed, const BedFacts& facts);
 
 /// The picture, the controls and the beds.
 std::string bed_section(const BedView& view);

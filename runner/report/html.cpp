@@ -34,10 +34,24 @@ std::string heading_cell(const Heading& heading) {
   return "<th scope=\"col\"" + meaning + ">" + html_text(heading.title) + "</th>";
 }
 
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+  return text;
+}
+
+/// No line ends between a value and its error.
+std::string with_bound_errors(const std::string& cell) {
+  return replaced(cell, " ± ", "\u00A0±\u00A0");
+}
+
 std::string table_row(const std::vector<std::string>& cells) {
   std::string text = "<tr>";
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    text += k == 0 ? "<th scope=\"row\">" + cells[k] + "</th>" : "<td>" + cells[k] + "</td>";
+    const std::string cell = with_bound_errors(cells[k]);
+    text += k == 0 ? "<th scope=\"row\">" + cell + "</th>" : "<td>" + cell + "</td>";
   }
   return text + "</tr>\n";
 }
@@ -104,13 +118,7 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
   }
 }
 
-std::string with_signs(std::string text) {
-  constexpr std::string_view plain = " +- ", sign = " ± ";
-  for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at)) {
-    text.replace(at, plain.size(), sign);
-  }
-  return text;
-}
+std::string with_signs(const std::string& text) { return replaced(text, " +- ", " ± "); }
 
 std::string html_table(const HtmlTable& table) {
   std::string text = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" +

@@ -38,7 +38,7 @@ struct HtmlTable {
 };
 
 /// Plain text with the sign ± where reasons in tables, which are plain ASCII, have "+-".
-std::string with_signs(std::string text);
+std::string with_signs(const std::string& text);
 
 /// A table that scrolls sideways where it does not fit, each row headed by its first cell.
 std::string html_table(const HtmlTable& table);

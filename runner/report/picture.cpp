@@ -47,14 +47,14 @@ struct Canvas {
   }
 
   /// `light` from 0 to 1.
-  void paint(int x, int y, double near, double light, const std::array<double, 3>& colour) {
+  void paint(int x, int y, double near, double light, const Colour& colour) {
     if (x < 0 || y < 0 || x >= width || y >= height) return;
     const std::size_t at =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     if (near <= nearest[at]) return;
     nearest[at] = near;
     for (std::size_t k = 0; k < 3; ++k) {
-      pixels[3 * at + k] = static_cast<char>(std::lround(255.0 * light * colour[k]));
+      pixels[3 * at + k] = static_cast<char>(std::lround(light * colour[k]));
     }
   }
 };
@@ -88,31 +88,20 @@ double light_on(const Vector& normal, const View& view) {
   return 0.35 + 0.65 * std::max(0.0, normal.dot(lamp));
 }
 
-/// From small (blue) to large (yellow); both ends of the scale of bed.js.
-std::array<double, 3> colour_of(double radius, double smallest, double largest) {
-  const double share = largest > smallest ? (radius - smallest) / (largest - smallest) : 0.6;
-  const std::array<double, 3> low = {0.23, 0.32, 0.55}, high = {0.99, 0.91, 0.15};
-  std::array<double, 3> colour{};
-  for (std::size_t k = 0; k < 3; ++k) colour[k] = low[k] + share * (high[k] - low[k]);
+/// `share` from 0 to 1 of the way along the colours of sizes.
+Colour size_colour(double share) {
+  const std::vector<Colour>& all = size_colours();
+  const double at = share * static_cast<double>(all.size() - 1);
+  const std::size_t low = std::min(static_cast<std::size_t>(at), all.size() - 2);
+  Colour colour{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    colour[k] = std::lerp(all[low][k], all[low + 1][k], at - static_cast<double>(low));
+  }
   return colour;
 }
 
-/// Colours for the components of a mixture, as in bed.js; there are eight, then the first again.
-std::array<double, 3> colour_of(std::size_t component) {
-  constexpr std::array<std::array<int, 3>, 8> all = {{{0, 114, 178},
-                                                      {230, 159, 0},
-                                                      {0, 158, 115},
-                                                      {204, 121, 167},
-                                                      {86, 180, 233},
-                                                      {213, 94, 0},
-                                                      {240, 228, 66},
-                                                      {110, 110, 110}}};
-  const auto& [red, green, blue] = all[component % all.size()];
-  return {red / 255.0, green / 255.0, blue / 255.0};
-}
-
-void paint_sphere(const SettledGrain& grain, const Placement& place,
-                  const std::array<double, 3>& colour, Canvas& canvas) {
+void paint_sphere(const SettledGrain& grain, const Placement& place, const Colour& colour,
+                  Canvas& canvas) {
   const Vector at = place.on(canvas, {grain.x, grain.y, grain.z});
   const double radius = place.scale * grain.radius;
   for (int y = static_cast<int>(at.y() - radius); y <= at.y() + radius; ++y) {
@@ -129,7 +118,7 @@ void paint_sphere(const SettledGrain& grain, const Placement& place,
 
 /// The triangle of corners a, b, c on the canvas.
 void paint_triangle(const Vector& a, const Vector& b, const Vector& c, double light,
-                    const std::array<double, 3>& colour, Canvas& canvas) {
+                    const Colour& colour, Canvas& canvas) {
   const auto area = [](const Vector& p, const Vector& q, double x, double y) {
     return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
   };
@@ -148,7 +137,7 @@ void paint_triangle(const Vector& a, const Vector& b, const Vector& c, double li
 }
 
 void paint_polyhedron(const StoredBed& bed, std::size_t grain, const Placement& place,
-                      const std::array<double, 3>& colour, Canvas& canvas) {
+                      const Colour& colour, Canvas& canvas) {
   const std::vector<Vector> corners = vertices_in_box(bed, grain);
   std::vector<Vector> on_canvas;
   on_canvas.reserve(corners.size());
@@ -191,6 +180,28 @@ std::string compressed(const std::string& bytes) {
 
 }  // namespace
 
+const std::vector<Colour>& size_colours() {
+  static const std::vector<Colour> viridis = {{68, 1, 84},    {72, 36, 117},  {65, 68, 135},
+                                              {53, 95, 141},  {42, 120, 142}, {33, 145, 140},
+                                              {34, 168, 132}, {68, 191, 112}, {122, 209, 81},
+                                              {189, 223, 38}, {253, 231, 37}};
+  return viridis;
+}
+
+Colour colour_of_one_size() { return size_colour(0.5); }
+
+Colour component_colour(std::size_t component) {
+  constexpr std::array<Colour, 8> all = {{{0, 114, 178},
+                                          {230, 159, 0},
+                                          {0, 158, 115},
+                                          {204, 121, 167},
+                                          {86, 180, 233},
+                                          {213, 94, 0},
+                                          {240, 228, 66},
+                                          {110, 110, 110}}};
+  return all[component % all.size()];
+}
+
 std::string picture_of(const StoredBed& bed, int width, int height) {
   Canvas canvas(width, height);
   if (bed.grains.empty()) return png_of(canvas.pixels, width, height);
@@ -200,9 +211,10 @@ std::string picture_of(const StoredBed& bed, int width, int height) {
       [](const SettledGrain& a, const SettledGrain& b) { return a.radius < b.radius; });
   for (std::size_t i = 0; i < bed.grains.size(); ++i) {
     const SettledGrain& grain = bed.grains[i];
-    const auto colour = has_components(bed)
-                            ? colour_of(bed.turned->component(i))
-                            : colour_of(grain.radius, smallest->radius, largest->radius);
+    const double span = largest->radius - smallest->radius;
+    const Colour colour = has_components(bed) ? component_colour(bed.turned->component(i))
+                          : span > 0.0 ? size_colour((grain.radius - smallest->radius) / span)
+                                       : colour_of_one_size();
     if (is_sphere(bed, i))
       paint_sphere(grain, place, colour, canvas);
     else

@@ -42,10 +42,9 @@ std::optional<Reference> reference_of(const Provenance& provenance,
 
 constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
 
-/// The first packing of each group with a stored bed, a settled one if there is any; at most
-/// most_beds, evenly spread over all.
-std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<Row>& rows,
-                                                              const std::vector<Group>& groups) {
+/// The first packing of each group with a stored bed, a settled one if there is any.
+std::vector<std::pair<const Group*, const Row*>> stored_beds(const std::vector<Row>& rows,
+                                                             const std::vector<Group>& groups) {
   std::map<std::pair<std::string_view, std::string_view>, const Row*> first_of;
   for (const Row& row : rows) {
     if (!row.outcome || row.outcome->stored_bytes == 0) continue;
@@ -57,7 +56,7 @@ std::vector<std::pair<const Group*, const Row*>> beds_to_show(const std::vector<
     const auto first = first_of.find({group.job.label, group.job.parameters.text()});
     if (first != first_of.end()) all.emplace_back(&group, first->second);
   }
-  return evenly_spread(all, most_beds);
+  return all;
 }
 
 /// The beds that have room in the page; empty if none is stored. Appends to `missing`.
@@ -66,7 +65,9 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
                     std::vector<std::string>& missing) {
   BedView view;
   std::size_t bytes = 0, left_out = 0;
-  for (const auto& [group, row] : beds_to_show(rows, groups)) {
+  const auto all = stored_beds(rows, groups);
+  view.all = all.size();
+  for (const auto& [group, row] : evenly_spread(all, most_beds)) {
     const StoredBed bed = read_bed(folder, *row->outcome);
     if (bed.grains.empty()) continue;
     bytes += view_size(bed);
@@ -81,6 +82,7 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
     if (view.beds.empty()) {
       view.title = facts.title;
       view.picture = picture_of(bed, picture_width, picture_height);
+      view.key = picture_key(bed, facts);
     }
     view.beds.push_back(bed_element(bed, facts));
   }

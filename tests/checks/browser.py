@@ -7,7 +7,7 @@ folder has been drawn and is that file, the table of packings sorts and filters;
 slider, its colours and its forces change what is seen; with scripts off everything is there to read;
 printed, a picture stands in for the bed; light and wide, dark and narrow, axe-core finds nothing. Talks to Chromium through its debugging pipe, so that nothing but Python is needed.
 """
-import base64, hashlib, json, os, pathlib, shutil, subprocess, sys, tempfile, time
+import base64, hashlib, json, os, pathlib, re, shutil, subprocess, sys, tempfile, time
 
 PATIENCE = 30.0  # s, for whatever a page does; a loaded machine needs some of it
 
@@ -99,6 +99,22 @@ COLOURS = """(picture) => {
   for (let k = 0; k < data.length; k += 4) seen.add(data[k] * 65536 + data[k + 1] * 256 + data[k + 2]);
   return seen.size;
 }"""
+# How far from the upper edge coloured pixels are, on the mean.
+HEIGHT = """(canvas) => {
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [300, 200];
+  const context = copy.getContext("2d");
+  context.drawImage(canvas, 0, 0, 300, 200);
+  const data = context.getImageData(0, 0, 300, 200).data;
+  let [sum, count] = [0, 0];
+  for (let k = 0; k < data.length; k += 4) {
+    const parts = [data[k], data[k + 1], data[k + 2]];
+    if (Math.max(...parts) - Math.min(...parts) < 30) continue;
+    sum += Math.floor(k / 1200);
+    count += 1;
+  }
+  return sum / Math.max(count, 1);
+}"""
 CANVAS = "document.getElementById('bed-canvas')"
 
 
@@ -112,6 +128,10 @@ def change(browser, element, value, event="change"):
     browser.value(f"{{ const e = document.getElementById('{element}'); e.value = '{value}';"
                   f" e.dispatchEvent(new Event('{event}')); }}")
     return look(browser)
+
+
+def press(browser, key):
+    browser.value(f"{CANVAS}.dispatchEvent(new KeyboardEvent('keydown', {{ {key} }}))")
 
 
 def check_forces(browser, faults, seen):
@@ -135,8 +155,13 @@ def check_bed(browser, faults):
         faults.append("the canvas of the bed is blank")
     if browser.value("getComputedStyle(document.getElementById('bed-picture')).display") != "none":
         faults.append("the picture stands beside the bed that turns")
+    whole = browser.value(f"({HEIGHT})({CANVAS})")
     if change(browser, "bed-slice", 40, "input") == first:
         faults.append("the slider changes nothing")
+    if browser.value("document.getElementById('bed-kept').textContent") != "40 %":
+        faults.append("the slider does not say how much it keeps")
+    if browser.value(f"({HEIGHT})({CANVAS})") >= whole:  # what is far away stands high
+        faults.append("the cut opens the side that is turned away")
     change(browser, "bed-slice", 100, "input")
     offered = "[...document.getElementById('bed-colour').options].filter((o) => !o.disabled).map((o) => o.value)"
     at_first = browser.value("document.getElementById('bed-colour').value")
@@ -150,13 +175,35 @@ def check_bed(browser, faults):
     change(browser, "bed-colour", at_first)
     if look(browser) != first:
         faults.append("the first view does not come back")
-    browser.value(f"{CANVAS}.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'ArrowLeft' }}))")
+    press(browser, "key: 'ArrowLeft'")
     if look(browser) == first:
         faults.append("an arrow key does not turn the bed")
+    press(browser, "key: '0'")
+    press(browser, "key: 'ArrowLeft', shiftKey: true")
+    if look(browser) == first:
+        faults.append("with shift an arrow key does not move the bed")
+    press(browser, "key: '0'")
+    if look(browser) != first:
+        faults.append("0 does not bring the first view back")
     for number in range(1, browser.value("document.getElementById('bed-choice').length")):
         before = look(browser)
         if change(browser, "bed-choice", number) == before:
             faults.append(f"bed {number} looks like the one before")
+
+
+def check_phrases(browser, shown, faults):
+    """What the filter finds: a whole number of the parameters, and two phrases at once."""
+    titles = browser.value("[...document.querySelectorAll('#packings tbody tr')]"
+                           ".map((row) => row.cells[2].textContent)")
+    extents = [extent[0] if (extent := re.findall(r"[WD] = [\d.]+", title)) else ""
+               for title in titles]
+    for extent in set(extents) - {""}:
+        for typed in (extent, extent.lower().replace(" ", "") + " , "):
+            browser.value("{ const e = document.getElementById('filter');"
+                          f" e.value = '{typed}'; e.dispatchEvent(new Event('input')); }}")
+            if browser.value(shown) != extents.count(extent):
+                faults.append(f"'{typed}' shows {browser.value(shown)} rows,"
+                              f" {extents.count(extent)} have it")
 
 
 def check_table(browser, faults):
@@ -177,6 +224,7 @@ def check_table(browser, faults):
                   " e.dispatchEvent(new Event('input')); }")
     if browser.value(shown) != 0:
         faults.append("the table does not filter")
+    check_phrases(browser, shown, faults)
 
 
 def check_figures(browser, path, faults):
@@ -258,6 +306,9 @@ def check(browser, path, axe):
         if words not in plain:
             faults.append(f'without scripts "{words}" is not there')
     content = browser.value(CONTENT)
+    controls = "document.getElementById('bed-controls')"
+    if browser.value(f"!!{controls} && getComputedStyle({controls}).display !== 'none'"):
+        faults.append("without scripts the controls of the bed are shown")
     browser.page("Emulation.setScriptExecutionDisabled", value=False)
     browser.open(path)
     if browser.value(CONTENT) != content:

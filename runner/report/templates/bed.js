@@ -18,9 +18,9 @@
   canvas.id = "bed-canvas";
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", "The bed in three dimensions; arrow keys turn it, plus and minus zoom");
+  canvas.setAttribute("aria-label", "The bed in three dimensions; arrow keys turn it, with shift they move it, plus and minus zoom");
 
-  // Viridis, by eleven of its colours.
+  // Viridis, by eleven of its colours; as in picture.cpp.
   const scale = [[68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142],
                  [33, 145, 140], [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38],
                  [253, 231, 37]];
@@ -89,8 +89,8 @@
 
   const common = `
     attribute vec3 centre; attribute float radius; attribute vec3 tint;
-    uniform vec3 keep; varying vec3 colour;
-    bool is_cut() { return any(greaterThan(centre, keep)); }`;
+    uniform vec4 cut; varying vec3 colour;
+    bool is_cut() { return dot(centre, cut.xyz) > cut.w; }`;
   const light = `
     vec3 lit(vec3 colour, vec3 normal) {
       float lamp = max(0.0, dot(normal, normalize(vec3(-0.4, 0.5, 1.0))));
@@ -119,7 +119,7 @@
         gl_FragColor = vec4(lit(colour, normal), 1.0);
         gl_FragDepthEXT = (-(middle + reach * normal.z) - depth.x) / (depth.y - depth.x);
       }`,
-    uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
+    uniforms: { cut: { value: new THREE.Vector4() }, depth: { value: new THREE.Vector2() } },
   });
 
   const meshMaterial = () => new THREE.ShaderMaterial({
@@ -135,7 +135,7 @@
     fragmentShader: `${light}
       varying vec3 colour; varying vec3 facing;
       void main() { gl_FragColor = vec4(lit(colour, normalize(facing)), 1.0); }`,
-    uniforms: { keep: { value: new THREE.Vector3() }, depth: { value: new THREE.Vector2() } },
+    uniforms: { cut: { value: new THREE.Vector4() }, depth: { value: new THREE.Vector2() } },
   });
 
   // Triangles of all meshes, each with the normal of its face, or of the sphere that it belongs to,
@@ -176,20 +176,14 @@
     return grains;
   };
 
-  const tubeOf = (bed) => {
-    const [diameter, , height] = bed.box;
-    const tube = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 48, 1, true);
-    tube.rotateX(Math.PI / 2);
-    tube.translate(diameter / 2, diameter / 2, height / 2);
-    return new THREE.LineSegments(new THREE.EdgesGeometry(tube, 1),
-      new THREE.LineBasicMaterial({ color: 0x888888, transparent: true, opacity: 0.5 }));
-  };
-
+  // Both rims of a tube, or the edges of a box.
   const frameOf = (bed) => {
-    if (bed.tube) return tubeOf(bed);
-    const box = new THREE.BoxGeometry(...bed.box);
-    box.translate(bed.box[0] / 2, bed.box[1] / 2, bed.box[2] / 2);
-    return new THREE.LineSegments(new THREE.EdgesGeometry(box),
+    const [length, width, height] = bed.box;
+    const frame = bed.tube ? new THREE.CylinderGeometry(length / 2, length / 2, height, 48, 1, true)
+      : new THREE.BoxGeometry(length, width, height);
+    if (bed.tube) frame.rotateX(Math.PI / 2);
+    frame.translate(length / 2, width / 2, height / 2);
+    return new THREE.LineSegments(new THREE.EdgesGeometry(frame, 30),
       new THREE.LineBasicMaterial({ color: 0x888888 }));
   };
 
@@ -197,19 +191,30 @@
   renderer.setClearColor(0xffffff, 1);
   const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
   let scene, bed, grains, network;
-  const view = { turn: 0.6, tilt: 0.5, zoom: 1 }; // as in picture.cpp
+  const firstView = { turn: 0.6, tilt: 0.5, zoom: 1, right: 0, up: 0 }; // as in picture.cpp
+  const view = { ...firstView }; // rad, and how far what is in the middle lies from the bed's, d
   let isWaiting = false;
+
+  const towardsEye = () => new THREE.Vector3(Math.sin(view.turn) * Math.cos(view.tilt),
+    -Math.cos(view.turn) * Math.cos(view.tilt), Math.sin(view.tilt));
+
+  // Half of what is seen from below to above, d.
+  const halfHeight = () => {
+    const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
+    return 1.05 * Math.hypot(...bed.box) / 2 * Math.max(1, 1 / aspect) / view.zoom;
+  };
 
   const place = () => {
     const middle = new THREE.Vector3(...bed.box).multiplyScalar(0.5);
     const far = 2 * middle.length() + 2;
-    const towards = new THREE.Vector3(Math.sin(view.turn) * Math.cos(view.tilt),
-      -Math.cos(view.turn) * Math.cos(view.tilt), Math.sin(view.tilt));
+    const towards = towardsEye();
+    const right = new THREE.Vector3(Math.cos(view.turn), Math.sin(view.turn), 0);
+    middle.addScaledVector(right, view.right).addScaledVector(towards.clone().cross(right), view.up);
     camera.up.set(0, 0, 1);
     camera.position.copy(middle).addScaledVector(towards, far);
     camera.lookAt(middle);
     const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
-    const half = 1.05 * middle.length() * Math.max(1, 1 / aspect) / view.zoom;
+    const half = halfHeight();
     Object.assign(camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half,
                             near: 0.1, far: 2 * far });
     camera.updateProjectionMatrix();
@@ -249,13 +254,13 @@
 
   const colourOfKind = (number) => kinds[number % kinds.length];
 
-  // What kinds have which colour.
-  const tellKinds = (names) => {
+  // What has which colour.
+  const tellEach = (names, colourOf) => {
     pick("bed-key").replaceChildren(...names.flatMap((name, k) => {
       const square = document.createElement("span");
       square.className = "scale square";
-      square.style.background = `rgb(${colourOfKind(k)})`;
-      return [square, name];
+      square.style.background = `rgb(${colourOf(k)})`;
+      return [square, name, " "];
     }));
   };
 
@@ -283,9 +288,10 @@
     const length = (value) => `${digits(value * bed.d)} ${bed.unit}`;
     const told = { size: length, touching: digits, force: (value) => `${digits(value)} m g`,
                    wall: length }[by];
-    if (by === "kind") tellKinds(["large", "small"]);
-    else if (by === "component") tellKinds(bed.meshes.map((_, k) => String(k + 1)));
-    else tell(told(low), told(high), scale);
+    if (by === "kind") tellEach(["large", "small"], colourOfKind);
+    else if (by === "component") tellEach(bed.components, colourOfKind);
+    else if (high > low) tell(told(low), told(high), scale);
+    else tellEach([`all ${told(low)}`], () => colour(0.5));
   };
 
   const paint = () => {
@@ -298,12 +304,18 @@
     redraw();
   };
 
+  // Takes away what lies on the side that faces the eye.
   const cut = () => {
     const axis = Number(pick("bed-axis").value);
-    const keep = [1e9, 1e9, 1e9];
     const kept = Number(pick("bed-slice").value) / 100;
-    if (kept < 1) keep[axis] = bed.box[axis] * kept; // lines through a periodic side reach beyond
-    for (const shown of [grains, network]) shown.material.uniforms.keep.value.set(...keep);
+    const faces = towardsEye().getComponent(axis) < 0 ? -1 : 1;
+    const plane = new THREE.Vector4(0, 0, 0, 1e9); // lines through a periodic side reach beyond
+    if (kept < 1) {
+      plane.setComponent(axis, faces);
+      plane.w = bed.box[axis] * (faces > 0 ? kept : kept - 1);
+    }
+    for (const shown of [grains, network]) shown.material.uniforms.cut.value.copy(plane);
+    pick("bed-kept").textContent = `${pick("bed-slice").value} %`;
     redraw();
   };
 
@@ -331,11 +343,21 @@
     redraw();
   };
   const zoom = (factor) => {
-    view.zoom = Math.min(Math.max(view.zoom * factor, 0.5), 20);
+    view.zoom = Math.min(Math.max(view.zoom * factor, 0.5), 100);
     redraw();
   };
 
-  // One pointer turns, two zoom.
+  // By so many pixels to the right and upwards.
+  const move = (right, up) => {
+    const pixel = 2 * halfHeight() / Math.max(1, canvas.clientHeight);
+    const most = Math.hypot(...bed.box) / 2; // so that the bed cannot be lost
+    const within = (value) => Math.min(Math.max(value, -most), most);
+    view.right = within(view.right - right * pixel);
+    view.up = within(view.up - up * pixel);
+    redraw();
+  };
+
+  // One pointer turns, with shift it moves; two zoom and move.
   const pointers = new Map();
   const apart = () => {
     const [a, b] = [...pointers.values()];
@@ -351,9 +373,12 @@
     const before = pointers.size === 2 ? apart() : 0;
     const now = { x: event.clientX, y: event.clientY };
     pointers.set(event.pointerId, now);
+    const [right, down] = [now.x - last.x, now.y - last.y];
     if (pointers.size === 2) {
       if (before > 0) zoom(apart() / before);
-    } else turn((now.x - last.x) / 200, (now.y - last.y) / 200);
+      move(right / 2, -down / 2); // each finger half of it
+    } else if (event.shiftKey) move(right, -down);
+    else turn(right / 200, down / 200);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
@@ -365,8 +390,12 @@
   }, { passive: false });
   canvas.addEventListener("keydown", (event) => {
     const keys = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
-    if (keys[event.key]) turn(...keys[event.key]);
-    else if (event.key === "+") zoom(1.15);
+    if (keys[event.key] && event.shiftKey) move(...keys[event.key].map((step) => 300 * step));
+    else if (keys[event.key]) turn(...keys[event.key]);
+    else if (event.key === "0") {
+      Object.assign(view, firstView);
+      redraw();
+    } else if (event.key === "+") zoom(1.15);
     else if (event.key === "-") zoom(1 / 1.15);
     else return;
     event.preventDefault();

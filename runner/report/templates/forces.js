@@ -8,7 +8,7 @@ const forceNetwork = (() => {
     side: THREE.DoubleSide,
     vertexShader: `
       attribute vec3 begin; attribute vec3 end; attribute float share; attribute vec3 tint;
-      uniform vec3 keep; uniform float thick; uniform float least; varying vec3 colour; varying float across;
+      uniform vec4 cut; uniform float thick; uniform float least; varying vec3 colour; varying float across;
       void main() {
         colour = tint; across = position.y;
         vec4 from = modelViewMatrix * vec4(begin, 1.0);
@@ -17,13 +17,13 @@ const forceNetwork = (() => {
         vec2 side = length(along) > 1e-6 ? normalize(vec2(-along.y, along.x)) : vec2(1.0, 0.0);
         vec4 seen = mix(from, to, position.x);
         seen.xy += position.y * side * max(least, thick * sqrt(share));
-        bool is_cut = any(greaterThan(begin, keep)) || any(greaterThan(end, keep));
+        bool is_cut = max(dot(begin, cut.xyz), dot(end, cut.xyz)) > cut.w;
         gl_Position = is_cut ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
       }`,
     fragmentShader: `
       varying vec3 colour; varying float across;
       void main() { gl_FragColor = vec4(colour * (0.6 + 0.4 * sqrt(1.0 - across * across)), 1.0); }`,
-    uniforms: { keep: { value: new THREE.Vector3() }, thick: { value: 0.35 * bed.largest_radius },
+    uniforms: { cut: { value: new THREE.Vector4() }, thick: { value: 0.35 * bed.largest_radius },
                 least: { value: 0 } }, // about half a pixel, told by bed.js
   });
 

@@ -1,4 +1,4 @@
-// Sorts the table of packings by any column and filters it by words. Without this script the page
+// Sorts the table of packings by any column and filters it by phrases with commas between. Without this script the page
 // is complete; with it a heading becomes a button.
 (() => {
   "use strict";
@@ -45,18 +45,32 @@
   const count = document.createElement("output");
   input.type = "search";
   input.id = "filter";
+  input.title = "phrases with commas between: W = 4, settled";
   label.append("Show rows with", input);
   controls.append(label, count);
   table.parentElement.before(controls);
 
+  // Blanks and case do not count, nor do blanks about "=".
+  const plain = (text) => text.toLowerCase().replace(/\s+/g, " ").replace(/ ?= ?/g, "=").trim();
+  const idOf = (row) => plain(row.cells[0].textContent);
+  const textOf = new Map(rows.map((row) =>
+    [row, [...row.cells].slice(1).map((cell) => plain(cell.textContent)).join("\n")]));
+
+  // Finds a phrase whose numbers are whole: "W = 4" is not in "W = 4.5".
+  const finder = (phrase) => {
+    const before = /^\d/.test(phrase) ? "(^|[^\\d.])" : "";
+    const after = /\d$/.test(phrase) ? "(?!\\.?\\d)" : "";
+    return new RegExp(before + phrase.replace(/[.*+?^${}()|[\]\\]/g, "\\$&") + after);
+  };
+
   input.addEventListener("input", () => {
-    const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const phrases = input.value.split(",").map(plain).filter(Boolean);
+    const finders = phrases.map(finder);
     let shown = 0;
     for (const row of rows) {
-      const text = row.textContent.toLowerCase();
-      row.hidden = !words.every((word) => text.includes(word));
+      row.hidden = !finders.every((one, k) => one.test(textOf.get(row)) || phrases[k] === idOf(row));
       if (!row.hidden) shown += 1;
     }
-    count.textContent = words.length ? `${shown} of ${rows.length}` : "";
+    count.textContent = phrases.length ? `${shown} of ${rows.length}` : "";
   });
 })();

@@ -93,6 +93,38 @@ TEST_CASE("lengths are told in the unit of the sweep, if it has one", "[report]"
   CHECK(json["d"] == 450.0);
 }
 
+TEST_CASE("below the picture stands what its colours are", "[report]") {
+  StoredBed bed = two_spheres();
+  const BedFacts in_mm{"a bed", 0.0, Units{3.2, "mm", std::nullopt}};
+  CHECK_THAT(picture_key(bed, {"a bed", 0.0}),
+             Catch::StartsWith("0.5 d<span") && Catch::EndsWith("</span>1 d") &&
+                 Catch::Contains("linear-gradient(to right,rgb(68,1,84),"));
+  CHECK_THAT(picture_key(bed, in_mm), Catch::EndsWith("</span>3.2 mm"));
+  bed.grains[1].radius = 0.5;
+  CHECK(picture_key(bed, {"a bed", 0.0}) ==
+        "<span class=\"scale square\" style=\"background:rgb(33,145,140)\"></span>all 1 d");
+  bed.grains.clear();
+  CHECK(picture_key(bed, in_mm).empty());
+}
+
+TEST_CASE("components of a mixture are called by their shapes", "[report]") {
+  StoredBed bed = two_spheres();
+  bed.turned = sample_turned();
+  bed.turned->meshes.push_back(bed.turned->meshes.front());
+  bed.turned->components = {1, 0};
+  const BedFacts facts = facts_of(mixture_row("a", 4).job, "a bed");
+  CHECK(json_in(bed_element(bed, facts))["components"] ==
+        nlohmann::json::parse(R"(["cube", "sphere"])"));
+  CHECK_THAT(picture_key(bed, facts), Catch::Contains("rgb(0,114,178)\"></span>cube") &&
+                                          Catch::Contains("rgb(230,159,0)\"></span>sphere"));
+}
+
+TEST_CASE("a page that has not all beds says so", "[report]") {
+  const std::string text = " Beds of 2 of 16 parameter sets are here.";
+  CHECK_THAT(bed_section({"a", "", "", {"", ""}, 16}), Catch::Contains(text));
+  CHECK_THAT(bed_section({"a", "", "", {"", ""}, 2}), !Catch::Contains("parameter sets"));
+}
+
 TEST_CASE("a bed's title cannot end its element", "[report]") {
   const std::string element = bed_element(two_spheres(), {"\"></script><b>", 0.0});
   CHECK(element.find("</script>") == element.rfind("</script>"));

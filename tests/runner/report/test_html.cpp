@@ -26,6 +26,11 @@ TEST_CASE("reasons have the sign ± on the page", "[report]") {
   CHECK(with_signs("").empty());
 }
 
+TEST_CASE("no line of a table ends between a value and its error", "[report]") {
+  CHECK_THAT(html_table({"t", "t", {{"x"}, {"y"}}, {{"a ± b", "0.5 ± 0.1 d"}}}),
+             Catch::Contains("a\u00A0±\u00A0b") && Catch::Contains("0.5\u00A0±\u00A00.1 d"));
+}
+
 TEST_CASE("a part of a page is not searched for names of parts", "[report]") {
   CHECK(filled("<{{a}}|{{b}}>", {{"a", "{{b}}"}, {"b", "2"}}) == "<{{b}}|2>");
   CHECK_THROWS_AS(filled("{{missing}}", {}), std::out_of_range);

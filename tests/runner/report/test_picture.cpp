@@ -55,6 +55,25 @@ TEST_CASE("a sphere stands in the middle of its picture, and nothing in the corn
   CHECK(is_white(39, 39));
 }
 
+TEST_CASE("the smallest and largest grains have the ends of the scale that the key shows",
+          "[report]") {
+  StoredBed bed;
+  bed.box.length = bed.box.width = 2.0;
+  bed.grains = {{0.5, 0.5, 0.5, 0.5, 1.0, 0}, {1.5, 1.5, 0.5, 0.4, 1.0, 0}};
+  const std::string rows = rows_of(picture_of(bed, 60, 60), 60 * 181);
+  std::size_t purple = 0, yellow = 0;
+  for (std::size_t at = 0; at < 60 * 60; ++at) {
+    const auto part = [&](std::size_t k) {
+      return static_cast<unsigned char>(rows[181 * (at / 60) + 1 + 3 * (at % 60) + k]);
+    };
+    purple += part(1) < 5 && part(2) > part(0) ? 1 : 0;
+    yellow += part(0) > 80 && part(2) < part(0) / 4 ? 1 : 0;
+  }
+  CHECK(size_colours().front() == Colour{68, 1, 84});
+  CHECK(size_colours().back() == Colour{253, 231, 37});
+  CHECK((purple > 100 && yellow > 100));
+}
+
 TEST_CASE("polyhedra are seen, too", "[report]") {
   StoredBed bed;
   bed.box.length = bed.box.width = 2.0;
