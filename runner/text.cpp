@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "runner/sweep/text_lines.hpp"
 
@@ -17,6 +18,20 @@ std::string pad_left(const std::string& text, std::size_t width) {
 
 std::string pad_right(const std::string& text, std::size_t width) {
   return text + pad_left(text, width).substr(0, pad_left(text, width).size() - text.size());
+}
+
+std::string filled_lines(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string filled, word;
+  std::size_t used = 0;  // characters of the last line
+  while (words >> word) {
+    const std::size_t length = characters(word);
+    const bool has_room = used + 1 + length <= width;
+    if (used > 0) filled += has_room ? ' ' : '\n';
+    used = used > 0 && has_room ? used + 1 + length : length;
+    filled += word;
+  }
+  return filled;
 }
 
 std::string counted(std::size_t count, const std::string& noun) {

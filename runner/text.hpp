@@ -10,6 +10,9 @@ namespace grainsweep {
 std::string pad_left(const std::string& text, std::size_t width);
 std::string pad_right(const std::string& text, std::size_t width);
 
+/// The words of a text in lines of at most `width` characters, where they have room.
+std::string filled_lines(const std::string& text, std::size_t width);
+
 /// "1 packing", "12 packings".
 std::string counted(std::size_t count, const std::string& noun);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "runner/machine.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
+#include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
@@ -61,9 +63,25 @@ std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& e
   return std::string(error.what()) + (has_two_folders ? compared_with : "");
 }
 
-/// Writes "--flag[=SHARE]" in the place of CLI11's "--flag{1} [=SHARE]".
+constexpr std::size_t help_width = 80, help_names = 24;  // characters of lines, and of names
+
+/// Writes "--flag[=SHARE]" in the place of CLI11's "--flag{1} [=SHARE]", and no line too long.
 class HelpFormatter : public CLI::Formatter {
  public:
+  std::string make_description(const CLI::App* command) const override {
+    const std::string text = CLI::Formatter::make_description(command);
+    return text.empty() ? text : filled_lines(text, help_width) + "\n";
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return filled_lines(CLI::Formatter::make_option_desc(option), help_width - help_names);
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::stringstream text;
+    CLI::detail::format_help(text, command->get_name(),
+                             filled_lines(command->get_description(), help_width - help_names),
+                             help_names);
+    return text.str();
+  }
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     const std::string name = CLI::Formatter::make_option_name(option, is_positional);
     return name.substr(0, name.find('{'));
@@ -99,15 +117,14 @@ void call_examples(CLI::App& command) {
 
 void describe(CLI::App& app, AllOptions& all) {
   app.name("grainsweep");
-  app.description(
-      "grainsweep " + program_version() +
-      ": packs beds of rigid frictionless grains as a JSON sweep file says, and measures how\n"
-      "walls change solid fraction and coordination number.");
+  app.description("grainsweep " + program_version() +
+                  ": packs beds of rigid frictionless grains as a JSON sweep file\n"
+                  "says, and measures how walls change solid fraction and coordination number.");
   app.set_version_flag("--version",
                        "grainsweep " + program_version() + " (" + source_commit() + ")");
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
-  app.get_formatter()->column_width(24);
+  app.get_formatter()->column_width(help_names);
   app.footer(std::string("Example: grainsweep run configs/quick.json --out out/quick\n"
                          "Help on a command: grainsweep run --help\n\n") +
              exit_codes_text);

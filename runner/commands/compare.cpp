@@ -41,9 +41,9 @@ void add_command(CLI::App& app, CompareOptions& options) {
                    "as CSV, a row for each value and each width of a formula; run and report write "
                    "the same to comparison.csv");
   compare.footer(
-      "Each row says what was measured and how, by how much it differs from the published value,\n"
-      "and how many standard errors that is; \"not determined\" and why where the sweep does not\n"
-      "tell.\n\nExample: grainsweep compare out/paper-spheres\n"
+      "Each row says what was measured and how, by how much it differs from the\n"
+      "published value, and how many standard errors that is; \"not determined\" and why\n"
+      "where the sweep does not tell.\n\nExample: grainsweep compare out/paper-spheres\n"
       "Example: grainsweep compare out/paper-spheres --csv > comparison.csv\n"
       "Example: grainsweep compare out/quick --with configs/paper-spheres.reference.json");
 }

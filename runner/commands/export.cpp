@@ -67,7 +67,7 @@ std::vector<std::size_t> rows_to_export(const std::vector<Row>& rows,
                      "/packings.csv");
     }
     if (!has_bed(*found))
-      throw BadInput("--job " + job + ": has no grains, it is " + status_of(*found));
+      throw BadInput("--job " + job + ": has no grains, it is " + status_words(*found));
     chosen.push_back(static_cast<std::size_t>(found - rows.begin()));
   }
   for (std::size_t k = 0; k < rows.size(); ++k) {

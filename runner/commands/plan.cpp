@@ -163,19 +163,12 @@ std::string cluster_text(double wall_seconds, double grown_wall_seconds) {
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
-std::string cells_text(const std::string& extent, const std::string& packings,
-                       const std::string& grains, const std::string& cpu,
-                       const std::string& memory) {
-  return pad_right(extent, 14) + pad_left(packings, 9) + pad_left(" " + grains, 10) +
-         pad_left(" " + cpu, 14) + pad_left(" " + memory, 13);
-}
-
-std::string cells_of(const PlannedGroup& group) {
+std::vector<std::string> cells_of(const PlannedGroup& group) {
   const PackingSpec& spec = group.first->spec;
   const std::string width = width_text(cell(spec.box.width), spec.box.y);
   const std::string extent = width + (spec.box.is_tube ? " tube" : "");
-  return cells_text(extent, std::to_string(group.packings), std::to_string(grain_count(spec)),
-                    duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes));
+  return {extent, std::to_string(group.packings), std::to_string(grain_count(spec)),
+          duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes)};
 }
 
 std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNames& names) {
@@ -189,8 +182,10 @@ std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNa
     });
   };
   const std::string extent = !has_extent(true) ? "W/d" : has_extent(false) ? "W/d, D/d" : "D/d";
-  std::string text = named_lines(
-      "label", cells_text(extent, "packings", "grains", "CPU each", "memory each"), lines);
+  std::string text = named_lines("label",
+                                 {pad_right(extent, 13), "packings", pad_left("grains", 8),
+                                  pad_left("CPU each", 12), "memory each"},
+                                 lines);
   if (groups.size() > groups_shown) {
     text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
   }

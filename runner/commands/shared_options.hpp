@@ -11,12 +11,11 @@ class Validator;
 namespace grainsweep {
 
 inline constexpr const char* exit_codes_text =
-    "Exit codes: 0 done; 1 done, but some packings failed or did not settle; 2 bad input, nothing\n"
-    "written; 3 another runner works in the folder; 4 file system; 5 too little memory or too few\n"
-    "threads; 6 out of time; 7 an unforeseen error; 129, 130, 138, 143 or 152 stopped by SIGHUP,\n"
-    "Ctrl-C, SIGUSR1, SIGTERM or a limit of CPU time. After 6 and a signal the same command goes "
-    "on\n"
-    "where it stopped.";
+    "Exit codes: 0 done; 1 done, but some packings failed or did not settle; 2 bad\n"
+    "input, nothing written; 3 another runner works in the folder; 4 file system; 5\n"
+    "too little memory or too few threads; 6 out of time; 7 an unforeseen error; 129,\n"
+    "130, 138, 143 or 152 stopped by SIGHUP, Ctrl-C, SIGUSR1, SIGTERM or a limit of\n"
+    "CPU time. After 6 and a signal the same command goes on where it stopped.";
 
 /// A sweep file.
 void add_file(CLI::App& command, std::string& file);

@@ -29,7 +29,7 @@ namespace {
 
 std::string packing_line(const std::string& name, int replicate, const Outcome& outcome) {
   const PackingResult& result = outcome.result;
-  std::string text = name + " #" + std::to_string(replicate) + "  " + name_of(result.status);
+  std::string text = name + " #" + std::to_string(replicate) + "  " + words_of(result.status);
   if (!result.reason.empty()) text += " (" + result.reason + ")";
   if (!result.coordination.empty()) {
     text += "  φ " + fixed(result.solid_fraction, 4) + "  Z " +

@@ -142,11 +142,6 @@ int order_of(const Row& row) {
   return row.outcome->result.status == PackingStatus::failed ? 0 : 1;
 }
 
-std::string status_words(const Row& row) {
-  const std::string status = status_of(row);
-  return status == "not_settled" ? "not settled" : status;
-}
-
 /// What tells the group of a packing from the others.
 using Titles = std::map<std::pair<std::string, std::string>, std::string>;
 

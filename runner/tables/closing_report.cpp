@@ -1,7 +1,6 @@
 #include "runner/tables/closing_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -32,26 +31,22 @@ std::string packings_text(const Group& group) {
   return counts.settled == all ? settled : settled + " of " + std::to_string(all);
 }
 
-std::string cells_text(const std::string& width, const std::array<std::string, 5>& cells) {
-  return pad_right(width, 12) + pad_left(cells[0], 16) + pad_left(" " + cells[1], 16) +
-         pad_left(" " + cells[2], 14) + pad_left(" " + cells[3], 10) + pad_left(" " + cells[4], 11);
-}
-
 /// The columns of a table: their heads, and the cells of a group.
 struct TableColumns {
-  std::string heads;
-  std::function<std::string(const Group&)> cells;
+  std::vector<std::string> heads;
+  std::function<std::vector<std::string>(const Group&)> cells;
 };
 
-std::string measured_cells(const Group& group) {
+std::vector<std::string> measured_cells(const Group& group) {
   const Box& box = group.job.box;
   const Spread& phi = mean_of(group, "solid_fraction");
   const Spread& z = mean_of(group, "coordination");
-  return cells_text(width_text(cell(box.width), box.y),
-                    {with_error(phi.mean, phi.error, solid_fraction_decimals),
-                     with_error(z.mean, z.error, coordination_decimals),
-                     fixed(mean_of(group, "contact_ratio").mean, 4),
-                     power_text(mean_of(group, "overlap_mean").mean), packings_text(group)});
+  return {width_text(cell(box.width), box.y),
+          with_error(phi.mean, phi.error, solid_fraction_decimals),
+          with_error(z.mean, z.error, coordination_decimals),
+          fixed(mean_of(group, "contact_ratio").mean, 4),
+          power_text(mean_of(group, "overlap_mean").mean),
+          packings_text(group)};
 }
 
 /// A line of a table: a group, and what tells its family from others in the table.
@@ -71,26 +66,27 @@ std::string extent_in(const std::vector<TableLine>& lines) {
 
 /// What is measured.
 TableColumns measured_columns(const std::vector<TableLine>& lines) {
-  return {cells_text(extent_in(lines) + "/d",
-                     {"φ ± error", "Z ± error", "contacts/iso", "overlap/d", "packings"}),
+  return {{pad_right(extent_in(lines) + "/d", 11), pad_left("φ ± error", 15),
+           pad_left("Z ± error", 14), "contacts/iso", "overlap/d", "packings"},
           measured_cells};
 }
 
 /// The same in the units of the sweep.
 TableColumns laboratory_columns(const std::vector<TableLine>& lines, const Units& units) {
-  const auto cells = [](const std::string& width, const std::string& porosity,
-                        const std::string& density) {
-    return pad_right(width, 14) + pad_left(porosity, 19) + pad_left(density, 17);
+  TableColumns columns;
+  columns.heads = {pad_right(extent_in(lines) + "/" + printed_unit(units), 13),
+                   pad_left("porosity ± error", 18)};
+  if (units.density) columns.heads.push_back(pad_left("kg/m³ ± error", 15));
+  columns.cells = [=](const Group& group) {
+    const Spread& phi = mean_of(group, "solid_fraction");
+    const Box& box = group.job.box;
+    std::vector<std::string> cells = {
+        width_text(length_in(units, box.width), box.y),
+        with_error(1.0 - phi.mean, phi.error, solid_fraction_decimals)};
+    if (units.density) cells.push_back(bulk_density_text(units, phi.mean, phi.error));
+    return cells;
   };
-  return {cells(extent_in(lines) + "/" + printed_unit(units), "porosity ± error",
-                units.density ? "kg/m³ ± error" : ""),
-          [=](const Group& group) {
-            const Spread& phi = mean_of(group, "solid_fraction");
-            const Box& box = group.job.box;
-            return cells(width_text(length_in(units, box.width), box.y),
-                         with_error(1.0 - phi.mean, phi.error, solid_fraction_decimals),
-                         units.density ? bulk_density_text(units, phi.mean, phi.error) : "");
-          }};
+  return columns;
 }
 
 /// The first of the lines below the heads of their columns.
@@ -368,8 +364,8 @@ std::string reasons_text(const std::vector<Row>& rows, const PackingNames& names
   int count = 0;
   for (const Row& row : rows) {
     if (!row.outcome || is_settled(row) || ++count > reasons_shown) continue;
-    text += "  " + row.job.id + " (" + names.set_of(row.job) + "): " + status_of(row) + "\n      " +
-            row.outcome->result.reason + "\n";
+    text += "  " + row.job.id + " (" + names.set_of(row.job) + "): " + status_words(row) +
+            "\n      " + row.outcome->result.reason + "\n";
   }
   if (count > reasons_shown) {
     text += "  and " + std::to_string(count - reasons_shown) + " more, see packings.csv\n";

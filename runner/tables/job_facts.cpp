@@ -273,6 +273,14 @@ std::string status_of(const Row& row) {
   return row.outcome ? name_of(row.outcome->result.status) : "pending";
 }
 
+std::string words_of(PackingStatus status) {
+  return status == PackingStatus::not_settled ? "not settled" : name_of(status);
+}
+
+std::string status_words(const Row& row) {
+  return row.outcome ? words_of(row.outcome->result.status) : status_of(row);
+}
+
 bool is_made(const Row& row) { return row.outcome && !row.outcome->exception; }
 
 void count(const Row& row, StatusCounts& counts) {

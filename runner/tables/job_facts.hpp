@@ -115,6 +115,10 @@ bool is_measured(const Row& row);
 /// "settled", "not_settled", "failed" or "pending".
 std::string status_of(const Row& row);
 
+/// The same as people read it: "not settled" where tables have not_settled.
+std::string words_of(PackingStatus status);
+std::string status_words(const Row& row);
+
 /// Whether it was made. One that broke off, by an exception, is made by the next run.
 bool is_made(const Row& row);
 

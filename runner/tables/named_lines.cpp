@@ -3,11 +3,32 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "runner/sweep/text_lines.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
+namespace {
 
-std::string named_lines(const std::string& name_head, const std::string& heads,
+std::vector<std::size_t> widths_of(const std::vector<std::string>& heads,
+                                   const std::vector<NamedLine>& lines) {
+  std::vector<std::size_t> widths;
+  for (std::size_t k = 0; k < heads.size(); ++k) {
+    widths.push_back(characters(heads[k]));
+    for (const NamedLine& line : lines) widths[k] = std::max(widths[k], characters(line.cells[k]));
+  }
+  return widths;
+}
+
+/// "4 periodic  0.61    5.5" without blanks at the end.
+std::string joined(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
+  std::string text = pad_right(cells[0], widths[0]);
+  for (std::size_t k = 1; k < cells.size(); ++k) text += "  " + pad_left(cells[k], widths[k]);
+  return text.erase(text.find_last_not_of(' ') + 1);
+}
+
+}  // namespace
+
+std::string named_lines(const std::string& name_head, const std::vector<std::string>& heads,
                         const std::vector<NamedLine>& lines) {
   constexpr std::size_t longest_in_column = 17;
   std::size_t longest = 0;
@@ -17,12 +38,13 @@ std::string named_lines(const std::string& name_head, const std::string& heads,
   const auto indent = [&](const std::string& name) {
     return has_column ? "  " + pad_right(name, width) : std::string("  ");
   };
-  std::string text = indent(name_head) + heads + "\n";
+  const std::vector<std::size_t> widths = widths_of(heads, lines);
+  std::string text = indent(name_head) + joined(heads, widths) + "\n";
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string& name = lines[k].name;
     const bool is_new = k == 0 || name != lines[k - 1].name;
     if (is_new && longest > longest_in_column) text += " " + name + "\n";
-    text += indent(name) + lines[k].cells + "\n";
+    text += indent(name) + joined(lines[k].cells, widths) + "\n";
   }
   return text;
 }

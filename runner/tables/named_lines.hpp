@@ -6,15 +6,17 @@
 
 namespace grainsweep {
 
-/// A line of a table, without its end, and what it is called.
+/// A line of a table and what it is called.
 struct NamedLine {
   std::string name;
-  std::string cells;
+  std::vector<std::string> cells;
 };
 
 /// The lines below the heads of their columns; `name_head` heads the names. Names stand in a column
-/// of their own or, where they are long, above the lines that they belong to.
-std::string named_lines(const std::string& name_head, const std::string& heads,
+/// of their own or, where they are long, above the lines that they belong to. Columns are as wide
+/// as the longest of their cells and their head with its blanks; but for the first they end
+/// flush.
+std::string named_lines(const std::string& name_head, const std::vector<std::string>& heads,
                         const std::vector<NamedLine>& lines);
 
 }  // namespace grainsweep

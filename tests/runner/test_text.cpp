@@ -13,6 +13,13 @@ TEST_CASE("padding counts characters, not bytes") {
   CHECK(pad_left("long", 2) == "long");
 }
 
+TEST_CASE("words are filled into lines that are not too long") {
+  CHECK(filled_lines("one two\nthree φφφ", 9) == "one two\nthree φφφ");
+  CHECK(filled_lines("one two three", 8) == "one two\nthree");
+  CHECK(filled_lines("longer than", 3) == "longer\nthan");
+  CHECK(filled_lines("", 3).empty());
+}
+
 TEST_CASE("durations read as people say them") {
   CHECK(duration_text(0.723) == "0.72 s");
   CHECK(duration_text(41.23) == "41.2 s");
