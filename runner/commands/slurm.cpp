@@ -143,7 +143,8 @@ void add_command(CLI::App& app, SlurmOptions& options) {
                 "as of run, for the job that ends it; shards always do");
   slurm.footer(
       "Example: grainsweep slurm sweep.json --out out/sweep --print\n\n"
-      "The environment of sbatch counts: SBATCH_ACCOUNT, SBATCH_QOS and the others of its\nmanual.");
+      "The environment of sbatch counts: SBATCH_ACCOUNT, SBATCH_QOS and the others of\n"
+      "its manual.");
 }
 
 int perform(const SlurmOptions& options) {
