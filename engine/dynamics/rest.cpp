@@ -161,18 +161,23 @@ bool is_held_by(const PolyhedronBed& /*bed*/, const ForceContact& /*contact*/) {
 struct RestTest {
   bool is_passed = false;
   std::string failure;      ///< what is wrong if it is not passed
-  std::string remedy;       ///< member of the accuracy that makes the test pass if it is larger
+  std::string remedy;       ///< how a bed passes: which members of the accuracy to make larger
   std::string advice = {};  ///< what to do if no accuracy does
 
   RestTest advised(const std::string& text) const { return {is_passed, failure, remedy, text}; }
 };
 
 RestTest at_most(const char* what, const char* unit, double value, double tolerance,
-                 const char* remedy, const std::string& why = "") {
+                 const std::string& remedy, const std::string& why = "") {
   return {value <= tolerance,
           std::string(what) + " " + number_text(value) + " " + unit + " exceeds " +
               number_text(tolerance) + why,
           remedy};
+}
+
+/// What makes beds come to rest, first, with its value; then what only lets them pass.
+std::string larger(const char* member, int value, const char* tolerance) {
+  return joined("make accuracy.", member, " larger, which is ", value, ", or accuracy.", tolerance);
 }
 
 }  // namespace
@@ -322,39 +327,42 @@ std::string rest_failure(const RestReport& rest, const Accuracy& accuracy, bool 
   constexpr double far = 10.0;  // from what more iterations would solve
   const std::string advice_where_stuck =
       rest.step_residual > far * accuracy.residual_tolerance
-          ? "give sizes a spread, as of 1e-2, if equal grains just fit between walls; else make "
-            "accuracy.rest_iterations larger"
+          ? joined(
+                "give sizes a spread, as of 1e-2, if equal grains just fit between walls; else "
+                "make accuracy.rest_iterations larger, which is ",
+                accuracy.rest_iterations)
           : "";
+  const auto more_iterations = [&](const char* tolerance) {
+    return larger("rest_iterations", accuracy.rest_iterations, tolerance);
+  };
   const RestTest tests[] = {
       at_most("residual of the last step", "m g", rest.step_residual, accuracy.residual_tolerance,
-              "residual_tolerance or accuracy.rest_iterations")
+              more_iterations("residual_tolerance"))
           .advised(advice_where_stuck),
       at_most("kinetic energy", "m g d per grain", rest.kinetic_energy, accuracy.kinetic_tolerance,
-              "kinetic_tolerance"),
+              "make accuracy.kinetic_tolerance larger"),
       at_most("mean overlap", "d", rest.overlap_mean, accuracy.overlap_tolerance,
-              "overlap_tolerance or accuracy.rest_iterations"),
+              more_iterations("overlap_tolerance")),
       at_most("deepest overlap", "d", rest.overlap_max,
-              deepest_overlap * accuracy.overlap_tolerance,
-              "overlap_tolerance or accuracy.rest_iterations"),
+              deepest_overlap * accuracy.overlap_tolerance, more_iterations("overlap_tolerance")),
       {has_enough || (rest.may_rest_on_fewer && rest.contacts > 0),
        "contacts / isostatic count " + number_text(held / isostatic) + " is below 1 by more than " +
            number_text(accuracy.contact_tolerance),
-       "contact_tolerance or accuracy.creep_steps",
+       larger("creep_steps", accuracy.creep_steps, "contact_tolerance"),
        held < most_by_symmetry * isostatic ? "its grains stand by symmetry, as columns do, or just "
                                              "fit: move the start a little or give sizes a spread"
                                            : ""},
       at_most("mean static imbalance", "own weights", rest.imbalance.mean, imbalance_tolerance,
-              "imbalance_tolerance or accuracy.imbalance_gap", why),
+              "make accuracy.imbalance_tolerance or accuracy.imbalance_gap larger", why),
       at_most("largest static imbalance", "own weights", rest.imbalance.max,
               largest_imbalance * imbalance_tolerance,
-              "imbalance_tolerance or accuracy.imbalance_gap", why)};
+              "make accuracy.imbalance_tolerance or accuracy.imbalance_gap larger", why)};
   for (const RestTest& test : tests) {
     if (test.is_passed) continue;
     if (!may_go_on || accuracy.step > longest_settling_step) {
       return test.failure + ": " + remedy_of_steps(accuracy);
     }
-    return test.failure + ": " +
-           (test.advice.empty() ? "make accuracy." + test.remedy + " larger" : test.advice);
+    return test.failure + ": " + (test.advice.empty() ? test.remedy : test.advice);
   }
   return {};
 }

@@ -269,25 +269,25 @@ TEST_CASE("the test of rest that failed is named with value and tolerance") {
   deep.overlap_max = 0.06;
   few.contacts = 900;
   CHECK(rest_failure(residual, accuracy) ==
-        "residual of the last step 0.025 m g exceeds 0.005: make accuracy.residual_tolerance or "
-        "accuracy.rest_iterations larger");
+        "residual of the last step 0.025 m g exceeds 0.005: make accuracy.rest_iterations larger, "
+        "which is 100, or accuracy.residual_tolerance");
   residual.step_residual = 0.25;
   CHECK(
       rest_failure(residual, accuracy) ==
       "residual of the last step 0.25 m g exceeds 0.005: give sizes a spread, as of 1e-2, if equal "
-      "grains just fit between walls; else make accuracy.rest_iterations larger");
+      "grains just fit between walls; else make accuracy.rest_iterations larger, which is 100");
   CHECK(rest_failure(kinetic, accuracy) ==
         "kinetic energy 0.125 m g d per grain exceeds 0.0002: make accuracy.kinetic_tolerance "
         "larger");
   CHECK(rest_failure(overlap, accuracy) ==
-        "mean overlap 0.002 d exceeds 1e-05: make accuracy.overlap_tolerance or "
-        "accuracy.rest_iterations larger");
+        "mean overlap 0.002 d exceeds 1e-05: make accuracy.rest_iterations larger, "
+        "which is 100, or accuracy.overlap_tolerance");
   CHECK(rest_failure(deep, accuracy) ==
-        "deepest overlap 0.06 d exceeds 0.001: make accuracy.overlap_tolerance or "
-        "accuracy.rest_iterations larger");
+        "deepest overlap 0.06 d exceeds 0.001: make accuracy.rest_iterations larger, "
+        "which is 100, or accuracy.overlap_tolerance");
   CHECK(rest_failure(few, accuracy) ==
         "contacts / isostatic count 0.9 is below 1 by more than 0.04: make "
-        "accuracy.contact_tolerance or accuracy.creep_steps larger");
+        "accuracy.creep_steps larger, which is 480, or accuracy.contact_tolerance");
   RestReport column = few;
   column.contacts = few.isostatic_contacts / 2;
   CHECK(rest_failure(column, accuracy) ==
