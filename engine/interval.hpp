@@ -26,4 +26,12 @@ struct Interval {
   }
 };
 
+/// The end of a message about a share: what to do if it was given in percent, as one far above the
+/// interval.
+inline std::string percent_hint(const Interval& shares, double value) {
+  return value >= 1.0 && value > 2.0 * shares.high && shares.holds(value / 100.0)
+             ? "; divide percentages by 100"
+             : "";
+}
+
 }  // namespace grainsweep

@@ -39,6 +39,13 @@ bool require_in(const Interval& interval, double value, const char* path, Errors
   return false;
 }
 
+/// Of a number that people know in percent, too.
+bool require_share(const Interval& interval, double value, const char* path, Errors& errors) {
+  if (require_in(interval, value, path, errors)) return true;
+  errors.back().message += percent_hint(interval, value);
+  return false;
+}
+
 double largest_radius(const PlacedGrains& placed) {
   double radius = 0.0;
   for (const PlacedSphere& grain : placed.grains) radius = std::max(radius, grain.radius);
@@ -81,8 +88,8 @@ bool check_sizes(const SizesSpec& sizes, Errors& errors) {
     if (!fault.empty()) errors.push_back({"sizes.distribution", fault});
     return fault.empty();
   }
-  const bool spread = require_in({0.0, 0.2}, sizes.spread, "sizes.spread", errors);
-  const bool share = require_in({0.0, 1.0}, sizes.small_share, "sizes.small_share", errors);
+  const bool spread = require_share({0.0, 0.2}, sizes.spread, "sizes.spread", errors);
+  const bool share = require_share({0.0, 1.0}, sizes.small_share, "sizes.small_share", errors);
   const bool ratio =
       require_in({0.02, 1.0, true, false}, sizes.size_ratio, "sizes.size_ratio", errors);
   return spread && share && ratio;
@@ -238,13 +245,35 @@ void check_components(const PlacedGrains& placed, const Mixture& mixture, Errors
                                      " is of no component: " + wanted});
 }
 
+bool has_hull(const ShapeSpec& shape) {
+  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
+    return std::any_of(mixture->components.begin(), mixture->components.end(),
+                       [](const MixtureComponent& one) { return has_hull(one.shape); });
+  }
+  return std::holds_alternative<HullVertices>(shape);
+}
+
+/// Whether grains are so small that it is their shape that is wrong where too many fill the box.
+bool is_tiny(const ShapeExtent& shape) {
+  constexpr double tiny = 0.2;  // d across
+  return 2.0 * shape.circumradius < tiny;
+}
+
 void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape,
                 bool counts_are_defined, Errors& errors) {
   if (const auto* solid = std::get_if<SolidHeight>(&spec.fill)) {
     const bool height =
         require_in({0.0, 1000.0, true, false}, solid->height, "fill.solid_height", errors);
     if (!height || !counts_are_defined) return;
-    require_count(grain_count(spec), "fill.solid_height", errors);
+    const std::int64_t count = grain_count(spec);
+    if (count > max_grains && is_tiny(*shape) && !has_hull(spec.shape)) {
+      errors.push_back({"shape." + std::string(name_of(spec.shape)),
+                        joined("gives grains of ", number_text(2.0 * shape->circumradius),
+                               " d across, ", count, " of them, and at most ", max_grains,
+                               " are packed; lengths are in d, a large grain's mean diameter")});
+      return;
+    }
+    require_count(count, "fill.solid_height", errors);
   } else if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
     require_count(grains->count, "fill.grains", errors);
   } else {
@@ -310,7 +339,8 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
                         " d high, and " + left_out_text(spec.measure) + " and a slab of " +
                         bound_text(least_slab_height) + " d between them take " +
                         number_text(left_out + least_slab_height) + " d" +
-                        (placed ? wrong_diameter : "")});
+                        (placed ? wrong_diameter
+                                : "; give " + enough_fill(spec) + " or more, or leave less out")});
 }
 
 /// How far the highest grain falls at least, d, where a start may be as dense as the loosest beds.
@@ -357,14 +387,6 @@ void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
   }
   check_height(spec, across * outcome_size(spec), errors);
   check_fall(spec, across * outcome_size(spec), errors);
-}
-
-bool has_hull(const ShapeSpec& shape) {
-  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
-    return std::any_of(mixture->components.begin(), mixture->components.end(),
-                       [](const MixtureComponent& one) { return has_hull(one.shape); });
-  }
-  return std::holds_alternative<HullVertices>(shape);
 }
 
 /// A hull far larger or smaller than d has the wrong unit, whatever other errors follow from that.
@@ -536,6 +558,18 @@ void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
 double probable_height(const PackingSpec& spec) {
   const double across = 2.0 * extent_of(spec.shape).circumradius * outcome_size(spec);
   return solid_height(spec) / usual_solid_fraction(spec, across);
+}
+
+std::string enough_fill(const PackingSpec& spec) {
+  const double needed =
+      spec.measure.exclude_floor + spec.measure.exclude_surface + least_slab_height;
+  const double times = 1.1 * needed / probable_height(spec);
+  if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
+    return joined("fill.grains ",
+                  static_cast<std::int64_t>(std::ceil(static_cast<double>(grains->count) * times)));
+  }
+  const auto* solid = std::get_if<SolidHeight>(&spec.fill);
+  return solid == nullptr ? "" : "fill.solid_height " + number_text(solid->height * times);
 }
 
 std::vector<SpecError> check(const PackingSpec& spec) {

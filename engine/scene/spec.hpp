@@ -156,6 +156,10 @@ std::vector<SpecError> check(const PackingSpec& spec);
 /// wide boxes; narrow beds and those of plates come out lower.
 double probable_height(const PackingSpec& spec);
 
+/// What to fill in for a bed that is measured, by probable_height with a tenth to spare, as the
+/// sweep file names it: "fill.grains 443"; empty for placed grains.
+std::string enough_fill(const PackingSpec& spec);
+
 /// Number of grains that `spec` asks for (before any of them is placed).
 std::int64_t grain_count(const PackingSpec& spec);
 

@@ -1,8 +1,6 @@
 #include "runner/sweep/low_beds.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -33,18 +31,6 @@ void count(const PackingSpec& spec, LowBeds& beds) {
   if (beds.lowest == nullptr || height < beds.height) beds.lowest = &spec, beds.height = height;
 }
 
-/// What to fill in for the lowest, with a tenth to spare.
-std::string remedy_of(const LowBeds& beds) {
-  const PackingSpec& spec = *beds.lowest;
-  const double times = 1.1 * least_height(spec.measure) / beds.height;
-  const auto* grains = std::get_if<GrainCount>(&spec.fill);
-  if (grains != nullptr) {
-    return joined("fill.grains ",
-                  static_cast<std::int64_t>(std::ceil(static_cast<double>(grains->count) * times)));
-  }
-  return "fill.solid_height " + number_text(std::get<SolidHeight>(spec.fill).height * times);
-}
-
 std::string note_on(const LowBeds& beds) {
   const PackingSpec& spec = *beds.lowest;
   const char* const across = spec.box.is_tube ? "tube.diameter " : "box.width ";
@@ -54,7 +40,7 @@ std::string note_on(const LowBeds& beds) {
                 number_text(beds.height, 2), " d high, where measure.exclude_floor, ",
                 "measure.exclude_surface and a slab of ", bound_text(least_slab_height),
                 " d between them take ", number_text(least_height(spec.measure)),
-                " d; give that one ", remedy_of(beds), " or more, or leave less out");
+                " d; give that one ", enough_fill(spec), " or more, or leave less out");
 }
 
 }  // namespace

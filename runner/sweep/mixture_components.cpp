@@ -89,7 +89,8 @@ class ComponentReader {
       return false;
     }
     if (share->is_number() && shares.holds(share->get<double>())) return true;
-    note(share_key, "must be a number in " + shares.text() + ", is " + describe(*share));
+    note(share_key,
+         "must be a number in " + shares.text() + ", is " + describe(*share) + of_percent(*share));
     return false;
   }
 

@@ -16,7 +16,10 @@ namespace {
 ValueReading fits(Value value) { return {std::move(value), ""}; }
 
 ValueReading mismatch(const Parameter& parameter, const Json& value) {
-  return {{}, "must be " + wanted_value(parameter) + ", is " + describe(value)};
+  const bool is_number = parameter.kind == ValueKind::number && value.is_string();
+  return {{},
+          "must be " + wanted_value(parameter) + ", is " + describe(value) +
+              (is_number ? of_percent(value) : "")};
 }
 
 ValueReading read_number(const Parameter& parameter, const Json& value) {
@@ -206,10 +209,23 @@ std::string range_error(const Parameter& parameter, const Value& value) {
   for (const double number : numbers) {
     if (parameter.range->holds(number)) continue;
     const bool is_bounded = !std::isinf(parameter.range->high);
+    const bool is_share = parameter.path.ends_with("_share") || parameter.path.ends_with("spread");
     return (is_bounded ? "must lie in " : "must be ") + parameter.range->text() + ", is " +
-           bound_text(number);
+           bound_text(number) + (is_share ? percent_hint(*parameter.range, number) : "");
   }
   return "";
+}
+
+std::string of_percent(const Json& value) {
+  if (value.is_number()) return percent_hint({0.0, 1.0}, value.get<double>());
+  if (!value.is_string()) return "";
+  const auto& text = value.get_ref<const std::string&>();
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  const std::string_view unit(read.ptr, static_cast<std::size_t>(end - read.ptr));
+  const bool is_percentage = read.ec == std::errc() && (unit == "%" || unit == " %");
+  return is_percentage ? "; write " + bound_text(number / 100.0) : "";
 }
 
 std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high,

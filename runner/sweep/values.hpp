@@ -32,6 +32,10 @@ std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low,
 /// What a value is, for messages: `the text "abc"`, "4.5", "a list", "an object".
 std::string describe(const Json& value);
 
+/// What to write for a share that is given in percent, for the end of a message: of 30
+/// "; divide percentages by 100", of the text "3%" "; write 0.03"; else "".
+std::string of_percent(const Json& value);
+
 /// How values of a kind are called in documentation: "list of numbers".
 const char* name_of(ValueKind kind);
 

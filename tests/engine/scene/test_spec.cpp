@@ -1,6 +1,9 @@
 // The rules of engine/scene/spec.hpp, which tell a sweep's author what to change.
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <variant>
 
 #include <catch2/catch.hpp>
 
@@ -226,12 +229,49 @@ TEST_CASE("a bed that must come out too low to be measured is refused where it i
       ": gives a bed too low to be measured: at most 5 d high, and measure.exclude_floor, "
       "measure.exclude_surface and a slab of 1 d between them take ";
   CHECK(bed(10, SolidHeight{3}, 3).empty());
-  CHECK(bed(10, SolidHeight{2}, 3) == Messages{"fill.solid_height" + reason + "7 d"});
+  CHECK(bed(10, SolidHeight{2}, 3) == Messages{"fill.solid_height" + reason +
+                                               "7 d; give fill.solid_height 4.62 or more, or "
+                                               "leave less out"});
   CHECK(bed(10, SolidHeight{2}, 1).empty());
   CHECK(bed(1.5, SolidHeight{2}, 3).empty());  // 0.45 is reached here
-  CHECK(bed(10, SolidHeight{2}, 20) == Messages{"measure" + reason + "24 d"});
+  CHECK(bed(10, SolidHeight{2}, 20) == Messages{"measure" + reason +
+                                                "24 d; give fill.solid_height 15.8 or more, or "
+                                                "leave less out"});
   REQUIRE(bed(10, GrainCount{3}, 3).size() == 1);
   CHECK(bed(10, GrainCount{3}, 3)[0].starts_with("fill.grains: gives a bed too low"));
+  CHECK_THAT(bed(10, GrainCount{3}, 3)[0], Catch::EndsWith(" or more, or leave less out"));
+}
+
+TEST_CASE("what is enough to fill in makes a bed that is measured") {
+  PackingSpec spec;
+  for (const Fill& fill : {Fill(GrainCount{50}), Fill(SolidHeight{1})}) {
+    spec.fill = fill;
+    CHECK_FALSE(check(spec).empty());
+    const std::string enough = enough_fill(spec);
+    const double number = std::stod(enough.substr(enough.find(' ')));
+    if (std::holds_alternative<GrainCount>(fill)) {
+      CHECK_THAT(enough, Catch::StartsWith("fill.grains "));
+      spec.fill = GrainCount{static_cast<std::int64_t>(number)};
+    } else {
+      CHECK_THAT(enough, Catch::StartsWith("fill.solid_height "));
+      spec.fill = SolidHeight{number};
+    }
+    CHECK(check(spec).empty());
+    CHECK(probable_height(spec) == Approx(1.1 * 7.0).epsilon(0.01));
+  }
+  spec.fill = PlacedGrains{{{1, 1, 1, 0.5}}};
+  CHECK(enough_fill(spec).empty());
+}
+
+TEST_CASE("a shape so small that too many of it fill the box is to blame") {
+  PackingSpec spec;
+  spec.shape = CylinderSize{0.005, 0.005};
+  const auto errors = check(spec);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].path == "shape.cylinder");
+  CHECK_THAT(errors[0].message,
+             Catch::StartsWith("gives grains of 0.00707 d across, ") &&
+                 Catch::EndsWith("; lengths are in d, a large grain's mean diameter"));
 }
 
 TEST_CASE("layers do not interlock in narrow tubes nor between end walls: beds may be higher") {
@@ -358,6 +398,11 @@ TEST_CASE("sizes keep to their intervals") {
   CHECK(sizes({0.2, 1.0, 0.021}).empty());
   CHECK(sizes({-0.01, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is -0.01"});
   CHECK(sizes({0.21, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is 0.21"});
+  const std::string percent = "; divide percentages by 100";
+  CHECK(sizes({3, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is 3" + percent});
+  CHECK(sizes({0, 30, 0.5}) == Messages{"sizes.small_share: must lie in [0, 1], is 30" + percent});
+  CHECK(sizes({0.1, 101, 0.5}) == Messages{"sizes.small_share: must lie in [0, 1], is 101"});
+  CHECK(sizes({0.1, 0.0, 2}) == Messages{"sizes.size_ratio: must lie in (0.02, 1], is 2"});
   CHECK(sizes({0.1, 1.4, 0.5}) == Messages{"sizes.small_share: must lie in [0, 1], is 1.4"});
   CHECK(sizes({0.1, 0.5, 0.02}) == Messages{"sizes.size_ratio: must lie in (0.02, 1], is 0.02"});
   CHECK(sizes({nan, nan, nan}) == Messages{"sizes.spread: must lie in [0, 0.2], is nan",

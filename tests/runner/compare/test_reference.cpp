@@ -111,7 +111,7 @@ TEST_CASE("what no packing can be is refused where families are told apart") {
   CHECK(value_of("box.y", "\"wals\"") ==
         "must be \"periodic\" or \"walls\", is the text \"wals\"; did you mean \"walls\"?");
   CHECK(value_of("box.length", "\"4\"") == "must be a number, is the text \"4\"");
-  CHECK(value_of("sizes.spread", "3") == "must lie in [0, 0.2], is 3");
+  CHECK(value_of("sizes.spread", "3") == "must lie in [0, 0.2], is 3; divide percentages by 100");
   CHECK(value_of("measure.gap_tolerances.0", "1") == "must lie in (0, 0.1), is 1");
   const std::string by_parts = "give each part by its dotted name, as \"sizes.small_share\"";
   CHECK(value_of("sizes", R"({"small_share": 0})") == by_parts);

@@ -67,7 +67,8 @@ TEST_CASE("a bed too low to be measured is told with its shape") {
                          R"({"fill": {"grains": 1000}, "box.width": 10, "box.length": 15})")) ==
       Messages{"s.json:1:43 /base/fill/grains: gives a bed too low to be measured: at most 5.12 d "
                "high, and measure.exclude_floor, measure.exclude_surface and a slab of 1 d between "
-               "them take 7 d (with shape \"tetrahedron\")"});
+               "them take 7 d; give fill.grains 3297 or more, or leave less out (with shape "
+               "\"tetrahedron\")"});
 }
 
 TEST_CASE("an accuracy that cannot be asked of one shape is told with that") {
