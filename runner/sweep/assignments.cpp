@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "runner/sweep/misplaced_keys.hpp"
 #include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/shape_kind.hpp"
 #include "runner/sweep/size_formulas.hpp"
@@ -12,10 +13,6 @@
 
 namespace grainsweep {
 namespace {
-
-std::string dotted(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
-}
 
 void read_parameter(std::size_t index, const Json& value, const std::string& pointer,
                     Assignments& assignments, Diagnostics& diagnostics) {
@@ -30,22 +27,6 @@ void read_parameter(std::size_t index, const Json& value, const std::string& poi
   } else {
     diagnostics.push_back({pointer, reading.error});
   }
-}
-
-/// The shortest full path that ends in a key misplaced into `group`; "" if there is none. The parts
-/// of a shape or a distribution are looked for only in the groups that it is in, as others have
-/// other parts.
-std::string path_that_ends_in(const std::string& key, const std::string& group) {
-  std::string found;
-  for (const std::string& path : known_keys("")) {
-    if (!path.ends_with("." + key)) continue;
-    const std::string home = path.substr(0, path.size() - key.size() - 1);
-    const bool is_related =
-        group.find('.') == std::string::npos || group.starts_with(home) || home.starts_with(group);
-    const bool is_shorter = found.empty() || path.size() < found.size();
-    if (is_related && is_shorter) found = path;
-  }
-  return found;
 }
 
 /// Why there is no parameter for what people of the field look for at `path`; "" for other paths.
@@ -120,6 +101,8 @@ std::string unknown_path(const std::string& group, const std::string& key,
                          const std::string& pointer) {
   const std::string start = "unknown key \"" + shortened(key) + "\"; ";
   if (auto reason = absence_of(dotted(group, key)); !reason.empty()) return start + reason;
+  const std::string whole = path_with_members(dotted(group, key));
+  if (!whole.empty()) return start + "did you mean \"" + whole + "\"?";
   const std::string in_its_group = group.empty() ? unknown_in_its_group(key) : "";
   if (!in_its_group.empty()) return start + in_its_group;
   std::vector<std::string> known = known_keys(group);

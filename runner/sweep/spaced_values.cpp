@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "runner/sweep/misplaced_keys.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
@@ -45,7 +46,9 @@ std::string members_error(const Json& range) {
 Json spaced_values(const std::string& path, const Json& range, const std::string& pointer,
                    Diagnostics& diagnostics) {
   if (!is_interval(path)) {
-    diagnostics.push_back({pointer, "must be a list of values, is " + describe(range)});
+    const std::string lists = range.is_object() ? dotted_lists(path, range) : "";
+    diagnostics.push_back({pointer, "must be a list of values, is " + describe(range) +
+                                        (lists.empty() ? "" : "; write " + lists)});
     return nullptr;
   }
   if (const std::string error = members_error(range); !error.empty()) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "runner/sweep/misplaced_keys.hpp"
 #include "runner/sweep/random_paths.hpp"
 #include "runner/sweep/read_replicates.hpp"
 #include "runner/sweep/read_units.hpp"
@@ -139,8 +140,10 @@ std::vector<Assignments> read_list(const std::string& path, const Json& list,
   std::vector<Assignments> entries;
   if (!is_known_path(path, pointer, diagnostics)) return entries;
   if (!list.is_array()) {
+    const std::string lists = list.is_object() ? dotted_lists(path, list) : "";
     diagnostics.push_back({pointer, "must be a list of values, is " + describe(list) +
-                                        "; a single value belongs into \"set\""});
+                                        (lists.empty() ? "; a single value belongs into \"set\""
+                                                       : "; write " + lists)});
   } else if (list.empty()) {
     diagnostics.push_back({pointer, "must hold at least one value"});
   } else {
@@ -327,8 +330,9 @@ Block read_block(const Json& json, std::size_t index, std::uint64_t room,
                  diagnostics)) {
     return block;
   }
-  refuse_unknown_keys(json, block.pointer, {"label", "set", "grid", "zip", "random", "replicates"},
-                      diagnostics);
+  refuse_misplaced_keys(json, block.pointer,
+                        {"label", "set", "grid", "zip", "random", "replicates"}, "set", "grid",
+                        diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
   block.replicates = read_replicates(json, block.pointer, definition.replicates, diagnostics);
   BlockReader(json, block, room, diagnostics).read();
@@ -380,8 +384,9 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
                  diagnostics)) {
     return definition;
   }
-  refuse_unknown_keys(file, "", {"name", "seed", "replicates", "units", "base", "sweep", "$schema"},
-                      diagnostics);
+  refuse_misplaced_keys(file, "",
+                        {"name", "seed", "replicates", "units", "base", "sweep", "$schema"}, "base",
+                        "", diagnostics);
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);
