@@ -9,6 +9,7 @@
 #include "runner/exit_codes.hpp"
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/store/files.hpp"
+#include "runner/sweep/far_shapes.hpp"
 #include "runner/sweep/low_beds.hpp"
 #include "runner/sweep/read_sweep.hpp"
 #include "runner/sweep/text_lines.hpp"
@@ -49,6 +50,7 @@ Sweep sweep_or_refusal(const std::string& file) {
 Sweep sweep_with_notes(const std::string& file) {
   const auto check = [](const Sweep& sweep) {
     Diagnostics told = unreachable_wishes(sweep);
+    for (Diagnostic& note : notes_on_far_shapes(sweep)) told.push_back(std::move(note));
     for (Diagnostic& note : notes_on_low_beds(sweep)) told.push_back(std::move(note));
     return told;
   };
