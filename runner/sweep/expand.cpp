@@ -204,12 +204,28 @@ class Expansion {
     name("sizes.distribution.table.file", resolved.size_file);
   }
 
+  /// What is there again, and the values of the first point with it.
+  struct Again {
+    std::uint64_t count = 0;
+    std::string first;
+  };
+
+  void count_again(Again& again) const {
+    if (++again.count == 1) again.first = problems_.values_of_point();
+  }
+
+  /// ", the first with box.width 5"; nothing where lists give no values.
+  static std::string first_of(const Again& again) {
+    if (again.first.empty()) return "";
+    return again.count == 1 ? ", with " + again.first : ", the first with " + again.first;
+  }
+
   void add(std::size_t index, Job& job, std::uint64_t hash) {
     const auto [entry, is_new] = first_block_.emplace(hash, index);
     if (!is_new) {
       const bool same = definition_.blocks[entry->second].label == job.label;
-      if (!same) ++shared_[{entry->second, index}];
-      if (entry->second == index && job.replicate == 1) ++repeated_[index];
+      if (!same) count_again(shared_[{entry->second, index}]);
+      if (entry->second == index && job.replicate == 1) count_again(repeated_[index]);
       return;
     }
     job.id = hex16(hash);
@@ -259,29 +275,30 @@ class Expansion {
   }
 
   void note_shared_jobs() {
-    for (const auto& [pair, count] : shared_) {
+    for (const auto& [pair, again] : shared_) {
       const Block& first = definition_.blocks[pair.first];
       const Block& second = definition_.blocks[pair.second];
       diagnostics_.push_back(
-          {second.pointer, "block \"" + second.label + "\" repeats " + in_thousands(count) +
-                               (count == 1 ? " job" : " jobs") + " of block \"" + first.label +
-                               "\" (" + first.pointer +
-                               "); give both the same label, or take the repeated values out"});
+          {second.pointer, "block \"" + second.label + "\" repeats " + in_thousands(again.count) +
+                               (again.count == 1 ? " job" : " jobs") + " of block \"" +
+                               first.label + "\" (" + first.pointer + ")" + first_of(again) +
+                               "; give both the same label, or take the repeated values out"});
     }
   }
 
   /// Notes points of a block that are drawn or written again: equal ones are one point.
   void note_repeated_points() {
-    for (const auto& [index, count] : repeated_) {
+    for (const auto& [index, again] : repeated_) {
       const Block& block = definition_.blocks[index];
       const bool are_drawn = !block.random.empty();
-      diagnostics_.push_back({block.pointer + (are_drawn ? "/random/count" : ""),
-                              in_thousands(count) + " of " + in_thousands(point_count(block)) +
-                                  (count == 1 ? " points is " : " points are ") +
-                                  (are_drawn ? "drawn" : "there") +
-                                  " again and packed once; for more packings of a point "
-                                  "raise replicates",
-                              Anchor::value, "", true});
+      diagnostics_.push_back(
+          {block.pointer + (are_drawn ? "/random/count" : ""),
+           in_thousands(again.count) + " of " + in_thousands(point_count(block)) +
+               (again.count == 1 ? " points is " : " points are ") +
+               (are_drawn ? "drawn" : "there") + " again and packed once" + first_of(again) +
+               "; for more packings of a point "
+               "raise replicates",
+           Anchor::value, "", true});
     }
   }
 
@@ -297,9 +314,9 @@ class Expansion {
   const std::size_t fill_files_ = parameter_with(Role::fill_files);
   const std::size_t chord_error_ = *find_parameter("shape.cylinder.chord_error");
   std::vector<Job> jobs_;
-  std::unordered_map<std::uint64_t, std::size_t> first_block_;  // of every job, by its hash
-  std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> shared_;  // jobs, by two blocks
-  std::map<std::size_t, std::uint64_t> repeated_;  // points that were drawn before, by block
+  std::unordered_map<std::uint64_t, std::size_t> first_block_;   // of every job, by its hash
+  std::map<std::pair<std::size_t, std::size_t>, Again> shared_;  // jobs, by two blocks
+  std::map<std::size_t, Again> repeated_;  // points that were drawn before, by block
 };
 
 }  // namespace

@@ -83,14 +83,20 @@ void PointProblems::name_points() {
 }
 
 std::string PointProblems::name_of_point() const {
-  std::string name = definition_.blocks.size() > 1 ? "in " + name_of(*block_) : "";
+  const std::string name = definition_.blocks.size() > 1 ? "in " + name_of(*block_) : "";
+  const std::string values = values_of_point();
+  if (values.empty()) return name;
+  return name + (name.empty() ? "" : " ") + "with " + values;
+}
+
+std::string PointProblems::values_of_point() const {
   std::string values;
   for (const Assignments* entry : entries_) {
     for (const Assignment& assignment : *entry) {
-      values += (values.empty() ? "with " : ", ") + text_of(assignment);
+      values += (values.empty() ? "" : ", ") + text_of(assignment);
     }
   }
-  return name + (name.empty() || values.empty() ? "" : " ") + values;
+  return values;
 }
 
 }  // namespace grainsweep

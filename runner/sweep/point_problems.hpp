@@ -36,6 +36,9 @@ class PointProblems {
   /// Treats a problem with this key as noted already.
   void skip(const std::string& key) { said_.try_emplace(key); }
 
+  /// What the lists of its block give the point: `box.width 5, shape "cube"`; empty without lists.
+  std::string values_of_point() const;
+
   /// Adds to the messages which points they are about, once all points are through.
   void name_points();
 

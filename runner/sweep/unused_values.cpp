@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "runner/sweep/parameter_row.hpp"
+#include "runner/sweep/suggest.hpp"
 #include "runner/sweep/values.hpp"
 
 namespace grainsweep {
 
 namespace {
 
-/// What a block varies instead of a value that it sets.
-std::string varied_instead(const Assignment& value, const Block& block) {
+/// The parameters that a block varies.
+std::vector<std::size_t> varied_by(const Block& block) {
   std::vector<std::size_t> varied;
   for (const Axis& axis : block.axes) {
     for (const Assignments& entry : axis.entries) {
@@ -24,12 +25,35 @@ std::string varied_instead(const Assignment& value, const Block& block) {
       for (const Assignment& assignment : choice) varied.push_back(assignment.parameter);
     }
   }
+  return varied;
+}
+
+/// Which of `parameters_written` holds in the place of a value: itself, or another way to say the
+/// same.
+std::string held_instead(const Assignment& value,
+                         const std::vector<std::size_t>& parameters_written) {
+  const auto& written = parameters_written;
   const Parameter& set = parameters()[value.parameter];
-  if (std::find(varied.begin(), varied.end(), value.parameter) != varied.end()) return set.path;
-  const auto other = std::find_if(varied.begin(), varied.end(), [&](std::size_t parameter) {
+  if (std::find(written.begin(), written.end(), value.parameter) != written.end()) return set.path;
+  const auto other = std::find_if(written.begin(), written.end(), [&](std::size_t parameter) {
     return choice_of(set) != Choice::none && choice_of(parameters()[parameter]) == choice_of(set);
   });
-  return other != varied.end() ? parameters()[*other].path : set.path;
+  return other != written.end() ? parameters()[*other].path : set.path;
+}
+
+/// Why a value of "base" never holds.
+std::string overridden_in_blocks(const Assignment& value, const std::vector<Block>& blocks) {
+  const std::string& path = parameters()[value.parameter].path;
+  std::vector<std::string> instead;
+  for (const Block& block : blocks) {
+    std::vector<std::size_t> written = varied_by(block);
+    for (const Assignment& assignment : block.set) written.push_back(assignment.parameter);
+    const std::string other = held_instead(value, written);
+    const bool is_new = std::find(instead.begin(), instead.end(), other) == instead.end();
+    if (other != path && is_new) instead.push_back(other);
+  }
+  if (instead.empty()) return "every block sets it itself";
+  return "the blocks have " + comma_list(instead) + " in its place";
 }
 
 }  // namespace
@@ -52,11 +76,11 @@ void UnusedValues::note_use(const Block& block, const InEffect& in_effect,
 }
 
 void UnusedValues::tell(const SweepDefinition& definition) {
-  tell(definition.base, "every block sets it itself", nullptr);
+  tell(definition.base, definition.blocks, nullptr);
   for (const Block& block : definition.blocks) {
-    tell(block.set, "", &block);
+    tell(block.set, {}, &block);
     for (const Axis& axis : block.axes) {
-      for (const Assignments& entry : axis.entries) tell(entry, "", &block);
+      for (const Assignments& entry : axis.entries) tell(entry, {}, &block);
     }
     for (const RandomPath& path : block.random) {
       note_choices_out_of_range(path);
@@ -84,7 +108,7 @@ void UnusedValues::note_choices_out_of_range(const RandomPath& path) {
   }
 }
 
-void UnusedValues::tell(const Assignments& assignments, const std::string& overridden,
+void UnusedValues::tell(const Assignments& assignments, const std::vector<Block>& overriding,
                         const Block* block) {
   for (const Assignment& assignment : assignments) {
     if (assignment.is_usual) continue;
@@ -97,13 +121,14 @@ void UnusedValues::tell(const Assignments& assignments, const std::string& overr
     const std::string error = range_error(parameter, assignment.value);
     if (!error.empty()) {
       diagnostics_.push_back({assignment.pointer, error});
-    } else if (overridden.empty()) {
+    } else if (block != nullptr) {
       diagnostics_.push_back(
-          {assignment.pointer, "the block varies " + varied_instead(assignment, *block) +
+          {assignment.pointer, "the block varies " + held_instead(assignment, varied_by(*block)) +
                                    ", so that this value is never used; take one of them out"});
     } else {
-      diagnostics_.push_back(
-          {assignment.pointer, "is never used: " + overridden, Anchor::value, "", true});
+      diagnostics_.push_back({assignment.pointer,
+                              "is never used: " + overridden_in_blocks(assignment, overriding),
+                              Anchor::value, "", true});
     }
   }
 }

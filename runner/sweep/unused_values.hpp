@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/scene/spec.hpp"
 #include "runner/sweep/assignments.hpp"
@@ -25,9 +26,11 @@ class UnusedValues {
   void tell(const SweepDefinition& definition);
 
  private:
-  /// Says which of `assignments` no packing depends on. That is an error where `overridden` is no
-  /// excuse for a value that never holds, or where the value could never be right.
-  void tell(const Assignments& assignments, const std::string& overridden, const Block* block);
+  /// Says which of `assignments`, those of "base" or of `block`, no packing depends on. Of "base"
+  /// they may be overridden by the blocks `overriding`; of a block that is an error, as is a value
+  /// that could never be right.
+  void tell(const Assignments& assignments, const std::vector<Block>& overriding,
+            const Block* block);
   void note_idle(const std::string& pointer, const std::string& reason);
   void note_choices_out_of_range(const RandomPath& path);
 

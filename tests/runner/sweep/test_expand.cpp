@@ -227,7 +227,8 @@ TEST_CASE("equal jobs of blocks with one label are made once") {
 TEST_CASE("equal jobs of blocks with different labels are refused, both named") {
   CHECK(errors_of(sweep_of("\n{\"label\": \"a\", \"grid\": {\"box.width\": [5, 6, 7]}},\n"
                            "{\"label\": \"b\", \"grid\": {\"box.width\": [6, 7, 8]}}")) ==
-        Messages{"s.json:3:1 /sweep/1: block \"b\" repeats 2 jobs of block \"a\" (/sweep/0); give "
+        Messages{"s.json:3:1 /sweep/1: block \"b\" repeats 2 jobs of block \"a\" (/sweep/0), the "
+                 "first with box.width 6; give "
                  "both the same label, or take the repeated values out"});
 }
 
@@ -330,7 +331,8 @@ TEST_CASE("a list that holds a value twice, and a zip with two equal rows, are r
 
 TEST_CASE("points that are there twice, said otherwise, are packed once, and that is noted") {
   CHECK(notes_of(sweep_of(R"({"grid": {"shape": ["cube", {"cube": {"edge": 1}}]}})")) ==
-        Messages{"s.json:1:37 /sweep/0: 1 of 2 points is there again and packed once; for more "
+        Messages{"s.json:1:37 /sweep/0: 1 of 2 points is there again and packed once, with "
+                 "shape.cube.edge 1; for more "
                  "packings of a point raise replicates"});
 }
 

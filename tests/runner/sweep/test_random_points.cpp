@@ -46,7 +46,8 @@ TEST_CASE("points that are drawn again are one, and that is noted") {
   REQUIRE(reading.notes.size() == 1);
   CHECK(reading.notes[0].pointer == "/sweep/0/random/count");
   CHECK(reading.notes[0].message ==
-        "7 of 9 points are drawn again and packed once; for more packings of a point raise "
+        "7 of 9 points are drawn again and packed once, the first with box.width 4; for more "
+        "packings of a point raise "
         "replicates");
   CHECK(reading_of(sweep_of(R"({"random": {"count": 9, "box.width": {"uniform": [4, 5]}}})"))
             .notes.empty());
