@@ -93,6 +93,7 @@ using Shape = ShapeOrder;
 constexpr FieldUse not_in_tables{.packings = false, .measured = false};
 constexpr FieldUse summary_only{.summary = true, .packings = false, .measured = false};
 constexpr FieldUse even_if_failed{.measured = false};
+constexpr FieldUse counted_even_if_failed{.groups = true, .measured = false};
 constexpr FieldUse with_mean{.groups = true};
 constexpr FieldUse derived{.journal = false, .groups = true};
 
@@ -120,7 +121,7 @@ std::vector<Field> outcome_fields() {
       in_result<&Result::coordination>(
           "coordinations", "", "gap tolerance, coordination and coordination_with_walls of each",
           not_in_tables),
-      in_result<&Result::grains>("grains", "", "number of grains", even_if_failed),
+      in_result<&Result::grains>("grains", "", "number of grains", counted_even_if_failed),
   };
 }
 
@@ -178,7 +179,8 @@ std::vector<Field> further_fields() {
           "floor about d wide (as wide as the grains, if these are "
           "larger), of the highest point of the grains whose centres "
           "stand above each; of an even number of columns the higher "
-          "of the two in the middle"),
+          "of the two in the middle",
+          with_mean),
       in_result<&Result::slab_bottom>("slab_bottom", "d", "z where the measured slab begins"),
       in_result<&Result::slab_top>("slab_top", "d", "z where it ends"),
       in_result<of::rest, &Rest::independent_contacts>(

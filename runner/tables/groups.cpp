@@ -27,6 +27,9 @@ const std::vector<Field>& mean_fields() {
     for (const Field& field : fields()) {
       if (field.use.groups) chosen.push_back(field);
     }
+    // The number of grains, known before they are measured, last.
+    std::stable_partition(chosen.begin(), chosen.end(),
+                          [](const Field& field) { return field.use.measured; });
     return chosen;
   }();
   return some;
@@ -143,6 +146,20 @@ Columns<Group> bias_columns() {
           column("coordination_bias_bound", &ProtocolBias::coordination)};
 }
 
+/// JSON on one line with numbers as jobs have them: 1e-04, which the library writes as 0.0001.
+std::string as_in_jobs(const nlohmann::json& value) {
+  if (value.is_number_float()) return cell(value.get<double>());
+  if (!value.is_structured()) return value.dump();
+  const char* const brackets = value.is_object() ? "{}" : "[]";
+  std::string text(1, brackets[0]);
+  for (const auto& [key, part] : value.items()) {
+    if (text.size() > 1) text += ',';
+    if (value.is_object()) text += nlohmann::json(key).dump() + ":";
+    text += as_in_jobs(part);
+  }
+  return text + brackets[1];
+}
+
 }  // namespace
 
 std::string parameters_of_family(const JobFacts& job) {
@@ -152,7 +169,7 @@ std::string parameters_of_family(const JobFacts& job) {
     parameters["box"].erase("y");
   }
   if (parameters.contains("tube")) parameters["tube"].erase("diameter");
-  return parameters.dump();
+  return as_in_jobs(parameters);
 }
 
 GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)

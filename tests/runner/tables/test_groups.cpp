@@ -111,6 +111,26 @@ TEST_CASE("the groups table as a whole") {
   CHECK((cell_in(text, 1, "b").empty() && cell_in(text, 2, "b") == "1"));
 }
 
+TEST_CASE("groups have means of the number of grains and the height of the surface") {
+  Row first = settled_row("a", 5, 0.5, 5.75), second = settled_row("b", 5, 0.75, 6.25);
+  second.outcome->result.grains = 2002;
+  second.outcome->result.surface_height = 16.5;
+  const std::vector<Row> rows = {first, second};
+  const std::string text = groups_csv(analyse(rows).groups);
+  CHECK(cell_in(text, 1, "grains") == "2001");
+  CHECK(cell_in(text, 1, "grains_sd") == cell(std::sqrt(2.0)));
+  CHECK(cell_in(text, 1, "surface_height") == "16");
+  CHECK(cell_in(text, 1, "surface_height_sd") == cell(std::sqrt(0.5)));
+}
+
+TEST_CASE("numbers of a family's parameters are written as those of its packings") {
+  JobFacts job;
+  job.parameters = std::string(
+      R"({"accuracy":{"gap":1e-04,"list":[0.5,1e-06,3]},"box":{"length":20,"width":5,"y":"walls"}})");
+  CHECK(parameters_of_family(job) ==
+        R"({"accuracy":{"gap":1e-04,"list":[0.5,1e-06,3]},"box":{"length":20}})");
+}
+
 TEST_CASE("a mean is asked for by the name of its field") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
   const auto groups = groups_of(rows);
