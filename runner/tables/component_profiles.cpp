@@ -74,11 +74,11 @@ Columns<ComponentProfileLine> component_profile_columns(const Varied& varied,
           {"other", "", "the number of a component, its own among them",
            [](In line) { return cell(line.other); }},
           {"other_shape", "", other_shape_meaning, [](In line) { return cell(line.other_name); }},
-          {"low", "d", "where the bin begins", [](In line) { return cell(line.bin.low); }},
-          {"high", "d", "where it ends", [](In line) { return cell(line.bin.high); }},
+          {"low", "d", "where the bin begins", [](In line) { return short_cell(line.bin.low); }},
+          {"high", "d", "where it ends", [](In line) { return short_cell(line.bin.high); }},
           {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
            [](In line) {
-             return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
+             return short_cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
            }},
           {"n", "", "packings, those among them that end below the bin",
            [](In line) { return cell(line.bin.solid_fraction.n); }},

@@ -20,7 +20,7 @@ struct PointLine {
 void append_distances(Columns<PointLine>& columns, const GivenUnits& units) {
   const auto distance = [](double CurvePoint::*edge) {
     return [edge](const PointLine& line) {
-      return line.curve == pair_correlation ? cell(line.point.*edge) : std::string();
+      return line.curve == pair_correlation ? short_cell(line.point.*edge) : std::string();
     };
   };
   Columns<PointLine> distances = {
@@ -41,9 +41,9 @@ Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& un
               "force over the mean of its layer, 1 d thick",
               [](const PointLine& line) { return cell(line.curve); }},
              {"low", "d or 1", "where the bin begins",
-              [](const PointLine& line) { return cell(line.point.low); }},
+              [](const PointLine& line) { return short_cell(line.point.low); }},
              {"high", "d or 1", "where it ends",
-              [](const PointLine& line) { return cell(line.point.high); }},
+              [](const PointLine& line) { return short_cell(line.point.high); }},
              {"n", "", "packings that have the bin",
               [](const PointLine& line) { return cell(line.point.value.n); }}});
   append_spread(columns, "value", "", "of the curve in the bin, mean over the packings",

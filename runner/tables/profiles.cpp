@@ -46,11 +46,11 @@ Columns<ProfileLine> profile_bin_columns() {
   using Line = const ProfileLine&;
   return {
       {"axis", "", profile_axis_meaning, [](Line line) { return cell(line.axis); }},
-      {"low", "d", "where the bin begins", [](Line line) { return cell(line.bin.low); }},
-      {"high", "d", "where it ends", [](Line line) { return cell(line.bin.high); }},
+      {"low", "d", "where the bin begins", [](Line line) { return short_cell(line.bin.low); }},
+      {"high", "d", "where it ends", [](Line line) { return short_cell(line.bin.high); }},
       {"from_axis", "d", "distance of its middle from the axis of a tube; empty elsewhere",
        [](Line line) {
-         return cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
+         return short_cell(from_axis(line.group, line.axis, line.bin.low, line.bin.high));
        }},
       {"n", "", "packings, those among them that end below the bin",
        [](Line line) { return cell(line.bin.solid_fraction.n); }},

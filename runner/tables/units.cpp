@@ -28,7 +28,10 @@ std::vector<Conversion> conversions_of(const std::string& name, const std::strin
 }
 
 std::string converted(const std::string& text, const Conversion& to) {
-  return text.empty() ? "" : cell(to.offset + to.factor * std::stod(text));
+  constexpr std::size_t short_number = 15;
+  if (text.empty()) return "";
+  const double value = to.offset + to.factor * std::stod(text);
+  return text.size() <= short_number ? short_cell(value, 15) : cell(value);
 }
 
 std::string printed_unit(const Units& units) { return units.unit == "um" ? "µm" : units.unit; }

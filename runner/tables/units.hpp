@@ -22,7 +22,8 @@ struct Conversion {
 std::vector<Conversion> conversions_of(const std::string& name, const std::string& unit,
                                        const Units& units);
 
-/// A cell converted; empty where it is.
+/// A cell converted; empty where it is. Of a short number, as where a bin begins, it is a short
+/// one.
 std::string converted(const std::string& text, const Conversion& to);
 
 /// "µm" of "um", the others as they are.

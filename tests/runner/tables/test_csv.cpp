@@ -23,6 +23,16 @@ TEST_CASE("numbers are written in the shortest form that reads back exactly") {
   }
 }
 
+TEST_CASE("edges of bins have no noise of rounding") {
+  CHECK(cell(6 * 0.1) == "0.6000000000000001");
+  CHECK(short_cell(6 * 0.1) == "0.6");
+  CHECK(short_cell(12.5 - (12.4 + 12.5) / 2) == "0.05");
+  CHECK(short_cell(1.0 / 3.0) == "0.333333333333");
+  CHECK(short_cell(0.0) == "0");
+  CHECK(short_cell(-20.0) == "-20");
+  CHECK(short_cell(std::nan("")).empty());
+}
+
 TEST_CASE("what is no number leaves its cell empty") {
   CHECK(cell(std::nan("")).empty());
   CHECK(cell(std::numeric_limits<double>::infinity()).empty());

@@ -48,6 +48,14 @@ TEST_CASE("scatter and errors of porosity are those of the solid fraction") {
   CHECK(conversions_of("solid_fraction", "", {1.0, "m", {}}).size() == 1);
 }
 
+TEST_CASE("a short number is a short one in any unit") {
+  const Conversion length{"low_mm", "mm", "", 0.0, 3.2};
+  CHECK(3.2 * 0.1 != 0.32);
+  CHECK(converted("0.1", length) == "0.32");
+  CHECK(converted("6", length) == "19.2");
+  CHECK(converted("0.12345678901234567", length) == cell(3.2 * 0.12345678901234567));
+}
+
 TEST_CASE("lengths are printed as finely in any unit as in d") {
   CHECK(length_text(0.198, 0.017, 3, std::nullopt) == "0.198 ± 0.017 d");
   CHECK(length_text(0.198, 0.017, 3, millimetres) == "0.198 ± 0.017 d = 0.634 ± 0.054 mm");
