@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "engine/shape/convex_shape.hpp"
@@ -69,6 +70,24 @@ std::string stl_heading(const std::string& unit) {
   return text;
 }
 
+std::string face_line(const std::vector<std::int32_t>& face, std::size_t first) {
+  std::string text = "f";
+  for (const std::int32_t k : face) text += " " + cell(first + static_cast<std::size_t>(k));
+  return text + "\n";
+}
+
+/// The faces of a surface, each below the name of its part.
+std::string faces_in_groups(const Surface& surface, const std::vector<std::string>& parts,
+                            std::size_t first) {
+  std::map<std::string, std::string> lines;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    lines[parts[k]] += face_line(surface.faces[k], first);
+  }
+  std::string text;
+  for (const auto& [part, faces] : lines) text += "g " + part + "\n" + faces;
+  return text;
+}
+
 }  // namespace
 
 std::string surfaces_stl(const ExportedBed& exported) {
@@ -92,13 +111,13 @@ std::string surfaces_stl(const ExportedBed& exported) {
 std::string surfaces_obj(const ExportedBed& exported) {
   std::string text = "# grainsweep, lengths in " + exported.settings.lengths.unit + "\n";
   std::size_t first = 1;
-  for_each_surface(exported, [&](const std::string& name, std::size_t, const Surface& surface) {
+  for_each_surface(exported, [&](const std::string& name, std::size_t id, const Surface& surface) {
     text += "o " + name + "\n";
     for (const Vector& vertex : surface.vertices) text += "v " + short_text(vertex) + "\n";
-    for (const auto& face : surface.faces) {
-      text += "f";
-      for (const std::int32_t k : face) text += " " + cell(first + static_cast<std::size_t>(k));
-      text += "\n";
+    if (id == 0) {
+      text += faces_in_groups(surface, container_parts(exported.bed.box), first);
+    } else {
+      for (const auto& face : surface.faces) text += face_line(face, first);
     }
     first += surface.vertices.size();
   });

@@ -110,7 +110,11 @@ void append_with_images(const StoredBed& bed, std::size_t grain, const Surface& 
   }
 }
 
-/// A prism over a polygon, counter-clockwise seen from above, from the floor up.
+/// Of the prism around a tube.
+constexpr int corners_of_tube = 128;
+
+/// A prism over a polygon, counter-clockwise seen from above, from the floor up: its sides, that
+/// from corner k to the next one first for k = 0, its bottom, its top.
 Surface prism(const std::vector<Eigen::Vector2d>& polygon, double height) {
   Surface surface;
   const auto corners = static_cast<std::int32_t>(polygon.size());
@@ -239,14 +243,27 @@ Surface container_surface(const Box& box, double height) {
   if (!box.is_tube) {
     return prism({{0, 0}, {box.length, 0}, {box.length, box.width}, {0, box.width}}, height);
   }
-  constexpr int corners = 128;
-  const double radius = box.length / 2.0, reach = radius / std::cos(pi / corners);
+  const double radius = box.length / 2.0, reach = radius / std::cos(pi / corners_of_tube);
   std::vector<Eigen::Vector2d> polygon;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2.0 * pi * k / corners;
+  for (int k = 0; k < corners_of_tube; ++k) {
+    const double angle = 2.0 * pi * k / corners_of_tube;
     polygon.emplace_back(radius + reach * std::cos(angle), radius + reach * std::sin(angle));
   }
   return prism(polygon, height);
+}
+
+std::vector<std::string> container_parts(const Box& box) {
+  const auto side = [](Boundary boundary, const char* periodic) {
+    return std::string(boundary == Boundary::walls ? "container_walls" : periodic);
+  };
+  std::vector<std::string> parts(static_cast<std::size_t>(corners_of_tube), "container_walls");
+  if (!box.is_tube) {
+    const std::string x = side(box.x, "container_periodic_x");
+    const std::string y = side(box.y, "container_periodic_y");
+    parts = {y, x, y, x};
+  }
+  parts.insert(parts.end(), {"container_floor", "container_top"});
+  return parts;
 }
 
 }  // namespace grainsweep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -51,5 +52,9 @@ std::vector<GrainSurface> grain_surfaces(const ExportedBed& exported);
 
 /// The box up to that height, or the tube as a prism around it.
 Surface container_surface(const Box& box, double height);
+
+/// What each face of that surface is, for meshers to tell boundaries by: container_walls,
+/// container_periodic_x or _y, container_floor, container_top.
+std::vector<std::string> container_parts(const Box& box);
 
 }  // namespace grainsweep

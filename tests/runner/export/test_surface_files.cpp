@@ -120,6 +120,17 @@ TEST_CASE(
                        Catch::Contains("o container\nv 0 0 0\n"));
 }
 
+TEST_CASE("the faces of the container in OBJ are in groups by what they bound") {
+  ExportedBed exported = stacked_cubes();
+  exported.bed.box.x = Boundary::periodic;
+  exported.bed.box.y = Boundary::walls;
+  const std::string text = surfaces_obj(exported);
+  CHECK_THAT(text, Catch::EndsWith("g container_floor\nf 20 19 18 17\n"
+                                   "g container_periodic_x\nf 18 19 23 22\nf 20 17 21 24\n"
+                                   "g container_top\nf 21 22 23 24\n"
+                                   "g container_walls\nf 17 18 22 21\nf 19 20 24 23\n"));
+}
+
 TEST_CASE("lengths are in the unit that is asked for, those of cuts and necks, too") {
   ExportedBed exported = stacked_cubes();
   exported.settings.lengths = {2.0, "mm", {}};

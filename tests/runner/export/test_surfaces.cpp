@@ -233,6 +233,22 @@ TEST_CASE("a tube's surface holds the tube and hardly more") {
   CHECK((volume_of(tube) > whole && volume_of(tube) < 1.001 * whole));
 }
 
+TEST_CASE("each face of a container has its part, floor and top last") {
+  for (const Box& box : {tube_of(4), empty_box(2, 3, 2).bed.box}) {
+    const Surface surface = container_surface(box, 5);
+    const std::vector<std::string> parts = container_parts(box);
+    REQUIRE(parts.size() == surface.faces.size());
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const auto is_at = [&](double z) {
+        return std::all_of(surface.faces[k].begin(), surface.faces[k].end(),
+                           [&](std::int32_t v) { return corner(surface, v).z() == z; });
+      };
+      CHECK(is_at(0) == (parts[k] == "container_floor"));
+      CHECK(is_at(5) == (parts[k] == "container_top"));
+    }
+  }
+}
+
 TEST_CASE("treatments are read with a share below 1") {
   CHECK(contact_treatment("shrink:.99")->share == 0.99);
   CHECK(contact_treatment("cap:0.2")->kind == ContactTreatment::Kind::cap);
