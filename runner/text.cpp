@@ -57,6 +57,12 @@ std::string with_error(double value, double error, int decimals) {
   return std::isfinite(error) ? text + " ± " + fixed(error, decimals) : text;
 }
 
+std::string size_text(std::size_t bytes) {
+  const double kilobytes = static_cast<double>(bytes) / 1e3;
+  if (kilobytes < 999.5) return fixed(std::max(1.0, kilobytes), 0) + " kB";
+  return fixed(kilobytes / 1e3, 1) + " MB";
+}
+
 std::string power_text(double value) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 32> text{};

@@ -23,6 +23,9 @@ std::string fixed(double value, int decimals);
 /// the decimals gets up to four more.
 std::string with_error(double value, double error, int decimals);
 
+/// "26 kB", "1.3 MB": kB below 1 MB, at least one.
+std::string size_text(std::size_t bytes);
+
 /// "8.7e-05"; "-" for NaN.
 std::string power_text(double value);
 

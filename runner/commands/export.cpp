@@ -205,8 +205,7 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
     replace_file(writing.to + "/" + file, text, Flush::later);
     written.jobs[file] = row.job.id;
     written.unsettled += is_settled(row) ? 0 : 1;
-    return counted(grains, "grain") + ", " + fixed(static_cast<double>(text.size()) / 1e6, 1) +
-           " MB";
+    return counted(grains, "grain") + ", " + size_text(text.size());
   } catch (const BadInput& error) {  // this bed cannot have the format; others may
     return "left out: " + written.refused.emplace_back(error.what());
   } catch (const std::logic_error& error) {  // a surface that could not be cut or joined

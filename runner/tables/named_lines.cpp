@@ -9,6 +9,11 @@
 namespace grainsweep {
 namespace {
 
+/// As columns that are empty in all lines would leave them.
+std::string without_blanks_at_end(const std::string& line) {
+  return line.substr(0, line.find_last_not_of(' ') + 1);
+}
+
 std::vector<std::size_t> widths_of(const std::vector<std::string>& heads,
                                    const std::vector<NamedLine>& lines) {
   std::vector<std::size_t> widths;
@@ -19,11 +24,11 @@ std::vector<std::size_t> widths_of(const std::vector<std::string>& heads,
   return widths;
 }
 
-/// "4 periodic  0.61    5.5" without blanks at the end.
+/// "4 periodic  0.61    5.5".
 std::string joined(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
   std::string text = pad_right(cells[0], widths[0]);
   for (std::size_t k = 1; k < cells.size(); ++k) text += "  " + pad_left(cells[k], widths[k]);
-  return text.erase(text.find_last_not_of(' ') + 1);
+  return text;
 }
 
 }  // namespace
@@ -39,12 +44,12 @@ std::string named_lines(const std::string& name_head, const std::vector<std::str
     return has_column ? "  " + pad_right(name, width) : std::string("  ");
   };
   const std::vector<std::size_t> widths = widths_of(heads, lines);
-  std::string text = indent(name_head) + joined(heads, widths) + "\n";
+  std::string text = without_blanks_at_end(indent(name_head) + joined(heads, widths)) + "\n";
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string& name = lines[k].name;
     const bool is_new = k == 0 || name != lines[k - 1].name;
     if (is_new && longest > longest_in_column) text += " " + name + "\n";
-    text += indent(name) + joined(lines[k].cells, widths) + "\n";
+    text += without_blanks_at_end(indent(name) + joined(lines[k].cells, widths)) + "\n";
   }
   return text;
 }

@@ -29,6 +29,14 @@ TEST_CASE("durations read as people say them") {
   CHECK(fixed(std::nan(""), 2) == "-");
 }
 
+TEST_CASE("sizes of files are in kB where they would be nothing in MB") {
+  CHECK(size_text(12) == "1 kB");
+  CHECK(size_text(26'400) == "26 kB");
+  CHECK(size_text(999'400) == "999 kB");
+  CHECK(size_text(999'600) == "1.0 MB");
+  CHECK(size_text(12'340'000) == "12.3 MB");
+}
+
 TEST_CASE("an error is printed to the decimals asked for, or as many more as show it") {
   CHECK(with_error(0.639, 0.0012, 4) == "0.6390 ± 0.0012");
   CHECK(with_error(0.92, 0.0046, 2) == "0.920 ± 0.005");

@@ -43,5 +43,12 @@ TEST_CASE("columns are as wide as what is in them, and their ends are flush") {
         "  12.345 periodic  0.6 ± 0.000004  12\n");
 }
 
+TEST_CASE("no line ends in blanks, as of a column that is empty in all of them") {
+  CHECK(named_lines("label", {"packings", "", ""}, {{"a", {"3", "", ""}}, {"b", {"", "", ""}}}) ==
+        "  label  packings\n"
+        "  a      3\n"
+        "  b\n");
+}
+
 }  // namespace
 }  // namespace grainsweep
