@@ -1,5 +1,8 @@
 // The command `compare`: stored results beside published values.
+#include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <set>
 
 #include <CLI/App.hpp>
 
@@ -10,21 +13,67 @@
 #include "runner/compare/comparison_table.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
+#include "runner/tables/csv.hpp"
 #include "runner/tables/families.hpp"
+#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
 
+/// The shipped file that fits packings of a sweep; "" if there is none.
+std::string fitting_reference(const std::vector<Row>& rows) {
+  const auto all = [&](const auto& is_such) {
+    return std::all_of(rows.begin(), rows.end(), is_such);
+  };
+  const auto is_of = [](const char* shape) {
+    return [=](const Row& row) { return row.job.shape == shape; };
+  };
+  const bool are_tubes = all([](const Row& row) { return row.job.box.is_tube; });
+  if (all(is_of("sphere"))) {
+    return are_tubes ? "tubes.reference.json" : "paper-spheres.reference.json";
+  }
+  return all(is_of("pinacoid")) && !are_tubes ? "paper-pinacoids.reference.json" : "";
+}
+
 /// The file asked for, or the one beside the sweep. Throws BadInput if there is none.
-std::string reference_file(const CompareOptions& options, const Provenance& provenance) {
+std::string reference_file(const CompareOptions& options, const Provenance& provenance,
+                           const std::vector<Row>& rows) {
   if (!options.with.empty()) return options.with;
   const std::string sweep_file = sweep_file_of(provenance);
   std::string beside = reference_beside(sweep_file);
   if (!sweep_file.empty() && file_exists(beside)) return beside;
+  const std::string fitting = fitting_reference(rows);
   throw BadInput(options.folder + ": there are no published values beside the sweep" +
                  (sweep_file.empty() ? "" : " (" + beside + ")") +
-                 "; name their file: --with configs/paper-spheres.reference.json");
+                 "; name their file: --with FILE" +
+                 (fitting.empty() ? "" : ", such as " + fitting) +
+                 (fitting.empty() ? "; configs/README.md says how to write one"
+                                  : " in the folder configs that grainsweep comes with"));
+}
+
+/// A note for each width of published values that no packing has in d, but would have if it were in
+/// the unit of the sweep.
+std::string notes_on_widths(const Reference& reference, const Analysis& analysis,
+                            const Units& units) {
+  const auto has_width = [&](double width) {
+    return std::any_of(analysis.groups.begin(), analysis.groups.end(), [=](const Group& group) {
+      return std::abs(group.job.box.width - width) <= 1e-9 * width;
+    });
+  };
+  std::set<double> widths;
+  for (const Published& value : reference.common) widths.insert(value.width);
+  for (const PublishedFamily& family : reference.families) {
+    for (const Published& value : family.values) widths.insert(value.width);
+  }
+  std::string notes;
+  for (const double width : widths) {
+    const double in_d = width / units.d;
+    if (!(width > 0.0) || has_width(width) || !has_width(in_d)) continue;
+    notes += "note: no packing has the width " + cell(width) + " d; widths are in d, and " +
+             cell(width) + " " + printed_unit(units) + " is " + short_cell(in_d) + " d\n";
+  }
+  return notes;
 }
 
 }  // namespace
@@ -50,9 +99,13 @@ void add_command(CLI::App& app, CompareOptions& options) {
 
 int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
-  const Reference reference = read_reference(reference_file(options, results.provenance));
+  const Reference reference =
+      read_reference(reference_file(options, results.provenance, results.rows));
   std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
+  if (const GivenUnits& units = results.provenance.units) {
+    std::cerr << notes_on_widths(reference, analysis, *units);
+  }
   if (options.as_csv) {
     std::cout << comparison_csv(compare_with(reference, analysis), results.provenance.units);
     return exit_done;
