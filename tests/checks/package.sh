@@ -61,6 +61,10 @@ packaged() {
 packaged --version >said.txt 2>&1 || fail "does not start with ${needed[*]}: $(cat said.txt)"
 packaged run /usr/share/grainsweep/configs/quick.json --out /tmp/quick \
   >said.txt 2>&1 || fail "quick.json: $(tail -n 5 said.txt)"
+for sweep in root/usr/share/grainsweep/configs/*.json; do
+  case $sweep in *.reference.json | *.schema.json) continue ;; esac
+  packaged validate "${sweep#root}" >said.txt 2>&1 || fail "$(cat said.txt)"
+done
 "$program" run root/usr/share/grainsweep/configs/quick.json --out here >/dev/null 2>&1
 for table in groups fits fit_points profiles decays distributions sizes columns; do
   cmp "here/$table.csv" "root/tmp/quick/$table.csv" || fail "other $table.csv than outside"
