@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <variant>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
@@ -25,6 +27,7 @@
 #include "runner/tables/csv.hpp"
 #include "runner/tables/named_lines.hpp"
 #include "runner/tables/packing_names.hpp"
+#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -75,32 +78,44 @@ std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& j
   return costs;
 }
 
+/// The packings of a sweep that are not made yet.
+struct Left {
+  std::vector<Cost> costs;        ///< of each of them
+  std::size_t of_known_beds = 0;  ///< to be measured again only
+};
+
+Left left_of(const std::string& folder, const Outcomes& made, const std::vector<Job>& jobs,
+             const std::vector<Cost>& costs) {
+  if (made.empty()) return {costs, 0};
+  std::vector<const Job*> pending;
+  Left left;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (made.contains(jobs[k].id)) continue;
+    pending.push_back(&jobs[k]);
+    left.costs.push_back(costs[k]);
+  }
+  const KnownBeds beds = known_beds(folder, made, pending);
+  for (std::size_t k = 0; k < pending.size(); ++k) {
+    if (!beds.contains(pending[k]->bed)) continue;
+    left.costs[k].cpu_seconds *= share_of_measuring;
+    ++left.of_known_beds;
+  }
+  return left;
+}
+
 /// How estimates were corrected by the packings made in a folder.
-std::string learned_text(const std::string& folder, const Outcomes& outcomes,
-                         const std::vector<Job>& jobs, const std::vector<Cost>& costs) {
+std::string learned_text(const std::string& folder, const std::vector<Job>& jobs,
+                         const std::vector<Cost>& costs, const Left& left) {
   if (!std::filesystem::exists(folder)) {
     return "No packing is made in " + folder + ": there is no such folder\n";
   }
-  std::vector<const Job*> pending;
-  std::vector<Cost> left;
-  for (std::size_t k = 0; k < jobs.size(); ++k) {
-    if (outcomes.contains(jobs[k].id)) continue;
-    pending.push_back(&jobs[k]);
-    left.push_back(costs[k]);
-  }
-  const KnownBeds beds = known_beds(folder, outcomes, pending);
-  std::size_t known = 0;
-  for (std::size_t k = 0; k < pending.size(); ++k) {
-    if (!beds.contains(pending[k]->bed)) continue;
-    left[k].cpu_seconds *= share_of_measuring;
-    ++known;
-  }
-  return counted(jobs.size() - left.size(), "packing") + " made in " + folder +
+  const std::string again = std::to_string(left.of_known_beds);
+  return counted(jobs.size() - left.costs.size(), "packing") + " made in " + folder +
          ": estimates times " +
          fixed(total_cpu_seconds(costs) / total_cpu_seconds(costs_of(jobs)), 2) + "; " +
-         counted(left.size(), "packing") + " left" +
-         (known > 0 ? ", " + std::to_string(known) + " of stored beds, to be measured again" : "") +
-         ", about " + duration_text(total_cpu_seconds(left)) + " CPU\n";
+         counted(left.costs.size(), "packing") + " left" +
+         (left.of_known_beds > 0 ? ", " + again + " of stored beds, to be measured again" : "") +
+         ", about " + duration_text(total_cpu_seconds(left.costs)) + " CPU\n";
 }
 
 /// CPU time of each of so many shards, as the uncorrected estimates divide them, s; 0 for those
@@ -163,18 +178,34 @@ std::string cluster_text(double wall_seconds, double grown_wall_seconds) {
 
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
-std::vector<std::string> cells_of(const PlannedGroup& group) {
+/// Height to which beds probably settle, d; nothing for placed grains, which may be a few.
+std::optional<double> planned_height(const PackingSpec& spec) {
+  if (std::holds_alternative<PlacedGrains>(spec.fill)) return std::nullopt;
+  return probable_height(spec);
+}
+
+/// The extent of the container, the height of the bed in d and, if they are given, in the units of
+/// the sweep, and what the packings cost.
+std::vector<std::string> cells_of(const PlannedGroup& group, const GivenUnits& units) {
   const PackingSpec& spec = group.first->spec;
   const std::string width = width_text(cell(spec.box.width), spec.box.y);
   const std::string extent = width + (spec.box.is_tube ? " tube" : "");
-  return {extent, std::to_string(group.packings), std::to_string(grain_count(spec)),
-          duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes)};
+  const double height = planned_height(spec).value_or(no_number);
+  std::vector<std::string> cells = {extent, fixed(height, 1)};
+  if (units) cells.push_back(fixed(height * units->d, decimals_in(*units, 1)));
+  for (const std::string& one :
+       {std::to_string(group.packings), std::to_string(grain_count(spec)),
+        duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes)}) {
+    cells.push_back(one);
+  }
+  return cells;
 }
 
-std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNames& names) {
+std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNames& names,
+                        const GivenUnits& units) {
   std::vector<NamedLine> lines;
   for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
-    lines.push_back({names.family_of(facts_of(*groups[i].first)), cells_of(groups[i])});
+    lines.push_back({names.family_of(facts_of(*groups[i].first)), cells_of(groups[i], units)});
   }
   const auto has_extent = [&](bool is_tube) {
     return std::any_of(groups.begin(), groups.end(), [&](const PlannedGroup& group) {
@@ -182,17 +213,20 @@ std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNa
     });
   };
   const std::string extent = !has_extent(true) ? "W/d" : has_extent(false) ? "W/d, D/d" : "D/d";
-  std::string text = named_lines("label",
-                                 {pad_right(extent, 13), "packings", pad_left("grains", 8),
-                                  pad_left("CPU each", 12), "memory each"},
-                                 lines);
+  std::vector<std::string> heads = {pad_right(extent, 13), "height/d"};
+  if (units) heads.push_back("height/" + printed_unit(*units));
+  for (const std::string& head : {std::string("packings"), pad_left("grains", 8),
+                                  pad_left("CPU each", 12), std::string("memory each")}) {
+    heads.push_back(head);
+  }
+  std::string text = named_lines("label", heads, lines);
   if (groups.size() > groups_shown) {
     text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";
   }
   return text;
 }
 
-/// What the whole sweep needs.
+/// What packings need together.
 struct Needs {
   double cpu_seconds = 0.0;
   double wall_seconds = 0.0;
@@ -215,13 +249,22 @@ std::string limit_text(double memory) {
   return std::isfinite(memory) ? " of the " + memory_text(memory) + " that can be had" : "";
 }
 
-void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
-                double grown_wall_seconds, int threads, const PackingNames& names) {
+/// `left`: packings that are not made, which `needs` is about.
+void print_text(const Sweep& sweep, const std::vector<Cost>& costs, std::size_t left,
+                const Needs& needs, double grown_wall_seconds, int threads,
+                const PackingNames& names) {
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
-            << groups_text(groups, names) << chosen_presets_text(sweep)
-            << "Estimated: " << duration_text(needs.cpu_seconds) << " CPU, about "
+            << groups_text(groups, names, sweep.units) << chosen_presets_text(sweep);
+  if (left == 0) {
+    std::cout << "Left: nothing, all of them are made\n"
+              << cluster_text(needs.wall_seconds, grown_wall_seconds);
+    return;
+  }
+  const std::string of_all = std::to_string(left) + " of " + counted(costs.size(), "packing");
+  std::cout << (left == costs.size() ? "Estimated: " : "Left: " + of_all + ", ")
+            << duration_text(needs.cpu_seconds) << " CPU, about "
             << duration_text(needs.wall_seconds) << " on "
             << counted(static_cast<std::size_t>(threads), "thread") << " ("
             << counted(static_cast<std::size_t>(needs.live), "packing") << " at once), up to "
@@ -230,15 +273,18 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
                                            : cluster_text(needs.wall_seconds, grown_wall_seconds));
 }
 
-/// One line; the parameters are JSON already.
-std::string job_json(const Job& job, const Cost& cost) {
-  const nlohmann::ordered_json facts = {{"job", job.id},
-                                        {"label", job.label},
-                                        {"replicate", job.replicate},
-                                        {"seed", job.seed},
-                                        {"grains", grain_count(job.spec)},
-                                        {"estimated_cpu_seconds", cost.cpu_seconds},
-                                        {"estimated_bytes", cost.bytes}};
+/// One line; the parameters are JSON already. `height`: as planned_height.
+std::string job_json(const Job& job, const Cost& cost, std::optional<double> height,
+                     const GivenUnits& units) {
+  nlohmann::ordered_json facts = {{"job", job.id},
+                                  {"label", job.label},
+                                  {"replicate", job.replicate},
+                                  {"seed", job.seed},
+                                  {"grains", grain_count(job.spec)},
+                                  {"estimated_cpu_seconds", cost.cpu_seconds},
+                                  {"estimated_bytes", cost.bytes}};
+  if (height) facts["expected_height"] = *height;
+  if (height && units) facts["expected_height_" + units->unit] = *height * units->d;
   std::string text = facts.dump();
   text.pop_back();
   return text + ",\"parameters\":" + job.parameters.text() + "}";
@@ -246,16 +292,21 @@ std::string job_json(const Job& job, const Cost& cost) {
 
 /// Written job by job: as one value a large sweep would take ten times the memory. `most`: the
 /// costs of all that a sweep may grow to; empty if it does not grow.
-void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs& needs,
+void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Left& left,
                 const std::vector<Cost>& most, int shards, int threads) {
-  nlohmann::ordered_json plan = {{"name", sweep.name},
-                                 {"packings", costs.size()},
-                                 {"threads", threads},
-                                 {"packings_at_once", needs.live},
-                                 {"estimated_cpu_seconds", needs.cpu_seconds},
-                                 {"estimated_wall_seconds", needs.wall_seconds},
-                                 {"estimated_bytes", needs.bytes},
-                                 {"available_bytes", needs.memory}};
+  const Needs needs = needs_of(costs, threads);
+  nlohmann::ordered_json plan = {
+      {"name", sweep.name},
+      {"packings", costs.size()},
+      {"threads", threads},
+      {"packings_at_once", needs.live},
+      {"estimated_cpu_seconds", needs.cpu_seconds},
+      {"estimated_wall_seconds", needs.wall_seconds},
+      {"estimated_bytes", needs.bytes},
+      {"available_bytes", needs.memory},
+      {"left_packings", left.costs.size()},
+      {"left_estimated_cpu_seconds", total_cpu_seconds(left.costs)},
+      {"left_estimated_wall_seconds", needs_of(left.costs, threads).wall_seconds}};
   if (!most.empty()) {
     plan["most_packings"] = most.size();
     plan["most_estimated_cpu_seconds"] = total_cpu_seconds(most);
@@ -266,8 +317,14 @@ void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Needs&
   std::string text = plan.dump(2);
   text.resize(text.rfind('\n'));
   std::cout << text << ",\n  \"jobs\": [";
+  std::vector<std::optional<double>> heights(costs.size());
+  for (const Places& set : parameter_sets(sweep.jobs)) {
+    const auto height = planned_height(sweep.jobs[set.front()].spec);
+    for (const std::size_t i : set) heights[i] = height;
+  }
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    std::cout << (i == 0 ? "\n    " : ",\n    ") << job_json(sweep.jobs[i], costs[i]);
+    std::cout << (i == 0 ? "\n    " : ",\n    ")
+              << job_json(sweep.jobs[i], costs[i], heights[i], sweep.units);
   }
   std::cout << "\n  ]\n}\n";
 }
@@ -296,16 +353,21 @@ int perform(const PlanOptions& options) {
   const Sweep& sweep = growing.now();
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   const std::vector<Cost> costs = costs_with(made, sweep.jobs);
-  if (!options.out.empty()) std::cerr << learned_text(options.out, made, sweep.jobs, costs);
-  const Needs needs = needs_of(costs, threads);
-  std::cerr << memory_warning(costs, needs.memory);
+  const Left left = left_of(options.out, made, sweep.jobs, costs);
+  if (!options.out.empty()) std::cerr << learned_text(options.out, sweep.jobs, costs, left);
+  std::cerr << memory_warning(left.costs, memory_for_packings());
   const std::vector<Cost> grown = grows(whole) ? costs_with(made, whole.jobs) : std::vector<Cost>();
   if (options.json) {
-    print_json(sweep, costs, needs, grown, options.shards, threads);
+    print_json(sweep, costs, left, grown, options.shards, threads);
   } else {
     const PackingNames names = names_in(sweep);
     const std::vector<Cost>& most = grows(whole) ? grown : costs;
-    print_text(sweep, costs, needs, needs_of(most, threads).wall_seconds, threads, names);
+    const Needs needs = needs_of(left.costs, threads);
+    const double grown_seconds =
+        grows(whole)
+            ? needs_of(left_of(options.out, made, whole.jobs, grown).costs, threads).wall_seconds
+            : needs.wall_seconds;
+    print_text(sweep, costs, left.costs.size(), needs, grown_seconds, threads, names);
     if (grows(whole)) {
       std::cout << next_text(sweep, made, names) << growth_text(most)
                 << "; with --out the packings made so far tell how many come next\n";

@@ -9,9 +9,11 @@ expect_code 0 "$program" --version
 expect_code 0 "$program" validate small.json
 expect_text out.txt "right: 10 packings, 5 parameter sets"
 expect_code 0 "$program" plan small.json --threads 2
-expect_text out.txt "10 packings" "bulk" "2 threads"
+expect_text out.txt "10 packings" "bulk" "2 threads" "height/d" "Estimated: "
+if grep -q "height/mm" out.txt; then fail "heights are in mm, which the sweep does not name"; fi
 expect_code 0 "$program" plan small.json --json
-expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"'
+expect_text out.txt '"packings": 10' '"estimated_bytes"' '"available_bytes"' '"left_packings": 10' \
+  '"expected_height":'
 [ "$(grep -c '"job":"[0-9a-f]*",.*"parameters":{"accuracy".*}' out.txt)" -eq 10 ] || fail "not 10 jobs"
 cp out.txt plan.json
 printf '%s\n' '{"name": "asked", "base": {"accuracy": {"coordination": 0.1}}}' >asked.json
@@ -72,7 +74,7 @@ expect_text error.txt "there are no new tables: "
 if grep -q "^Tables in" out.txt; then fail "tables are said to be there that are not"; fi
 rm -r out/small/fits.csv && mv fits.csv out/small/fits.csv
 expect_code 2 "$program" compare out/small
-expect_text error.txt "small.reference.json" "--with"
+expect_text error.txt "small.reference.json" "--with FILE, such as paper-spheres.reference.json in the folder"
 printf '{"source": "A paper", "families": [{"where": {}, "values": [{"quantity": "Z", "width": 99, "value": 6}]}]}' \
   >small.reference.json
 expect_code 0 "$program" compare out/small
@@ -89,6 +91,21 @@ for reference in "$configs"/*.reference.json; do
   expect_text out.txt "beside small. Lengths in d."
 done
 
+# Widths of published values are in d, not in the unit of the sweep.
+sed 's/"seed": 3/"seed": 3, "units": { "d": 5, "unit": "mm" }/' small.json >units.json
+cp -r out/small units
+expect_code "$code" "$program" run units.json --out units --no-report
+printf '{"source": "A paper", "common": [], "families": [{"where": {}, "values": [%s, %s, %s]}]}' \
+  '{"quantity": "Z", "width": 20, "value": 6}' '{"quantity": "Z", "width": 4, "value": 6}' \
+  '{"quantity": "Z", "width": 99, "value": 6}' >units.reference.json
+expect_code 0 "$program" compare units
+expect_text error.txt "note: no packing has the width 20 d; widths are in d, and 20 mm is 4 d"
+[ "$(grep -c "no packing has the width" error.txt)" -eq 1 ] || fail "compare notes $(cat error.txt)"
+expect_code 0 "$program" plan units.json
+expect_text out.txt "height/d height/mm"
+if grep -E '^.{101}' <(grep "height/d" -A 5 out.txt); then fail "the table of plan is wider than 100 characters"; fi
+rm -r units units.reference.json
+
 # A bed of 110 GB: validate warns where plan does.
 cat >large.json <<'JSON'
 { "name": "large", "replicates": 1,
@@ -103,7 +120,13 @@ expect_code 0 "$program" status out/small
 expect_text out.txt "10 of 10 packings done" "No runner at work"
 expect_code 0 "$program" plan small.json --out out/small --shards 3
 expect_text error.txt "10 packings made in out/small: estimates times " "; 0 packings left, about 0.00 s CPU"
-expect_text out.txt "No cluster is needed." "In 3 shards: about "
+expect_text out.txt "Left: nothing, all of them are made" "No cluster is needed." "In 3 shards: about "
+expect_code 0 "$program" plan small.json --out out/small --json
+expect_text out.txt '"packings": 10' '"left_packings": 0' '"left_estimated_cpu_seconds": 0.0' \
+  '"left_estimated_wall_seconds": 0.0'
+sed 's/"replicates": *2/"replicates": 3/' small.json >more.json
+expect_code 0 "$program" plan more.json --out out/small
+expect_text out.txt "15 packings" "Left: 5 of 15 packings, " " CPU, about "
 expect_code 0 "$program" plan small.json --out out/smal
 expect_text error.txt "No packing is made in out/smal: there is no such folder"
 expect_code 0 "$program" status out/small --json
@@ -118,6 +141,7 @@ expect_text error.txt "bare: its packings were stored without grains"
 
 for format in csv xyz vtp contacts contacts-vtp; do
   expect_code 0 "$program" export out/small --format $format
+  expect_text error.txt " grains, " " kB"
 done
 for ending in csv xyz vtp contacts.csv contacts.vtp; do
   [ "$(ls out/small/export/*-1-[0-9].$ending out/small/export/*-[2-9]-[0-9].$ending | wc -l)" -eq 10 ] ||
