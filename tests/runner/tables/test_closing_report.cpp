@@ -279,7 +279,7 @@ const std::vector<ReportedSweep> reported_sweeps = {
      {"  and 40 more, see groups.csv", "      C = "}},
     {"everything unsettled",
      R"({ "grid": { "box.width": [5, 8, 12] } })",
-     {"  5                          -               -             -         -     0 of 2",
+     {"  5                          -               -             -          -    0 of 2",
       "  φ = φ_bulk - C/W:  not determined:",
       "      needs settled packings at 3 or more widths with otherwise equal parameters, has 0",
       "Not in the means:", "  and 1 more, see packings.csv"},
