@@ -102,7 +102,7 @@ expect_code 0 "$program" compare units
 expect_text error.txt "note: no packing has the width 20 d; widths are in d, and 20 mm is 4 d"
 [ "$(grep -c "no packing has the width" error.txt)" -eq 1 ] || fail "compare notes $(cat error.txt)"
 expect_code 0 "$program" plan units.json
-expect_text out.txt "height/d height/mm"
+expect_text out.txt "height/d  height/mm"
 if grep -E '^.{101}' <(grep "height/d" -A 5 out.txt); then fail "the table of plan is wider than 100 characters"; fi
 rm -r units units.reference.json
 
