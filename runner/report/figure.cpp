@@ -57,14 +57,14 @@ std::string quoted_tic(const std::string& text) {
 Panels::Panels(Figure& figure, std::size_t columns, std::vector<double> heights,
                std::vector<KeyEntry> key, PanelGaps gaps)
     : width_(figure.width),
+      height_(height_with(lines_of(key.size(), columns_of(key)), figure.height)),
       columns_(columns),
       heights_(std::move(heights)),
       key_(std::move(key)),
       key_columns_(columns_of(key_)),
       top_(gaps.above + 12.0 + key_line * lines_of(key_.size(), key_columns_)),
       gaps_(gaps) {
-  figure.height = height_with(lines_of(key_.size(), key_columns_), figure.height);
-  height_ = figure.height;
+  figure.height = static_cast<int>(height_);
 }
 
 std::string Panels::place(std::size_t column, std::size_t row) const {

@@ -83,7 +83,7 @@ void PointProblems::name_points() {
 }
 
 std::string PointProblems::name_of_point() const {
-  const std::string name = definition_.blocks.size() > 1 ? "in " + name_of(*block_) : "";
+  std::string name = definition_.blocks.size() > 1 ? "in " + name_of(*block_) : "";
   const std::string values = values_of_point();
   if (values.empty()) return name;
   return name + (name.empty() ? "" : " ") + "with " + values;
