@@ -338,19 +338,25 @@ std::string means_commands(const Axes& axes, Figure& figure, const std::vector<F
   return text;
 }
 
+/// Reasons in the order in which they came up, and what they are of.
+using NamesByReason = std::vector<std::pair<std::string, std::string>>;
+
+void add_name(const std::string& reason, const std::string& name, NamesByReason& all) {
+  const auto said =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == reason; });
+  if (said == all.end()) {
+    all.emplace_back(reason, name);
+  } else {
+    said->second += "; " + name;
+  }
+}
+
 /// Which families have no line and why, each reason once.
 std::string fits_text(const std::vector<FittedSeries>& all) {
-  std::vector<std::pair<std::string, std::string>> names_by_reason;
+  NamesByReason names_by_reason;
   for (const FittedSeries& one : all) {
     if (!one.phi || is_determined(one.phi)) continue;
-    const std::string& reason = one.phi->not_determined;
-    const auto said = std::find_if(names_by_reason.begin(), names_by_reason.end(),
-                                   [&](const auto& entry) { return entry.first == reason; });
-    if (said == names_by_reason.end()) {
-      names_by_reason.emplace_back(reason, one.series->name);
-    } else {
-      said->second += "; " + one.series->name;
-    }
+    add_name(one.phi->not_determined, one.series->name, names_by_reason);
   }
   std::string text;
   for (const auto& [reason, names] : names_by_reason) {
@@ -359,18 +365,24 @@ std::string fits_text(const std::vector<FittedSeries>& all) {
   return text;
 }
 
-/// Which lines do not hold.
+/// Which lines are in doubt and why, each doubt once.
 std::string doubts_text(const std::vector<FittedSeries>& all) {
-  std::string names;
+  NamesByReason names_by_doubt;
   for (const FittedSeries& one : all) {
+    const std::string& name = one.series->name;
     const bool phi = is_doubted(one.phi), z = is_doubted(one.z);
-    if (!phi && !z) continue;
-    names += (names.empty() ? "" : "; ") + one.series->name +
-             (phi && z ? " (φ and Z)"
-              : phi    ? " (φ)"
-                       : " (Z)");
+    if (phi && z && one.phi->doubt == one.z->doubt) {
+      add_name(one.phi->doubt, name + " (φ and Z)", names_by_doubt);
+      continue;
+    }
+    if (phi) add_name(one.phi->doubt, name + " (φ)", names_by_doubt);
+    if (z) add_name(one.z->doubt, name + " (Z)", names_by_doubt);
   }
-  return names.empty() ? "" : " Dashed, since the straight line does not hold: " + names + ".";
+  std::string text;
+  for (const auto& [doubt, names] : names_by_doubt) {
+    text += " Dashed, since " + doubt + ": " + names + ".";
+  }
+  return text;
 }
 
 std::string published_text(const std::vector<PublishedCurve>& curves) {

@@ -316,6 +316,19 @@ TEST_CASE("a line that does not hold is dashed, and the caption says so", "[repo
   CHECK_THAT(means_of().commands, Catch::Contains("with lines ls 1 lw 1 dt 2 notitle"));
 }
 
+TEST_CASE("a caption gives each line that is in doubt its own reason", "[report]") {
+  std::vector<Row> rows = wall_rows();
+  for (Row& row : rows) {
+    row.job.box.width /= 2.0;
+    row.outcome->result.coordination.front().between_grains += 1e-3 * row.job.replicate;
+    if (row.job.box.width == 4.0) row.outcome->result.solid_fraction -= 0.02;
+  }
+  const std::string caption = figure_called(figures_of(rows, analyse(rows), {}), "means").caption;
+  CHECK_THAT(caption, Catch::Contains(" Dashed, since the straight line does not hold: MSP (φ)."));
+  CHECK_THAT(caption, Catch::Contains(" Dashed, since no line need hold in narrow containers"));
+  CHECK_THAT(caption, Catch::Contains("ducts and tubes < 5 d): MSP (Z)."));
+}
+
 TEST_CASE("packings without walls have the colour of the line that they belong to", "[report]") {
   std::vector<Row> rows = wall_rows();
   const std::vector<Figure> alone = figures_of(rows, analyse(rows), {});
