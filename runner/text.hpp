@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace grainsweep {
 
@@ -12,6 +13,9 @@ std::string pad_right(const std::string& text, std::size_t width);
 
 /// The words of a text in lines of at most `width` characters, where they have room.
 std::string filled_lines(const std::string& text, std::size_t width);
+
+/// The text with each `from`, which is not empty, replaced.
+std::string replaced(std::string text, std::string_view from, std::string_view to);
 
 /// "1 packing", "12 packings".
 std::string counted(std::size_t count, const std::string& noun);

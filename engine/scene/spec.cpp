@@ -326,10 +326,9 @@ std::string left_out_text(const MeasureSpec& measure) {
 void check_height(const PackingSpec& spec, double across, Errors& errors) {
   const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
   const double highest = solid_height(spec) / loosest_solid_fraction(spec, across) + across;
-  const double left_out = spec.measure.exclude_floor + spec.measure.exclude_surface;
-  if (highest >= left_out + least_slab_height) return;
-  const MeasureSpec usual;
-  const bool is_usual = left_out <= usual.exclude_floor + usual.exclude_surface;
+  const double needed = least_height(spec.measure);
+  if (highest >= needed) return;
+  const bool is_usual = needed <= least_height(MeasureSpec());
   const bool is_counted = std::holds_alternative<GrainCount>(spec.fill);
   errors.push_back({!is_usual    ? "measure"
                     : is_counted ? "fill.grains"
@@ -338,7 +337,7 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
                     "gives a bed too low to be measured: at most " + number_text(highest) +
                         " d high, and " + left_out_text(spec.measure) + " and a slab of " +
                         bound_text(least_slab_height) + " d between them take " +
-                        number_text(left_out + least_slab_height) + " d" +
+                        number_text(needed) + " d" +
                         (placed ? wrong_diameter
                                 : "; give " + enough_fill(spec) + " or more, or leave less out")});
 }
@@ -561,9 +560,7 @@ double probable_height(const PackingSpec& spec) {
 }
 
 std::string enough_fill(const PackingSpec& spec) {
-  const double needed =
-      spec.measure.exclude_floor + spec.measure.exclude_surface + least_slab_height;
-  const double times = 1.1 * needed / probable_height(spec);
+  const double times = 1.1 * least_height(spec.measure) / probable_height(spec);
   if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
     return joined("fill.grains ",
                   static_cast<std::int64_t>(std::ceil(static_cast<double>(grains->count) * times)));

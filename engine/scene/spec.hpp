@@ -130,6 +130,11 @@ struct MeasureSpec {
 /// A bed whose slab between the zones left out is lower than this is not measured, d.
 inline constexpr double least_slab_height = 1.0;
 
+/// What a bed needs for the zones that are left out and such a slab between them, d.
+inline double least_height(const MeasureSpec& measure) {
+  return measure.exclude_floor + measure.exclude_surface + least_slab_height;
+}
+
 struct PackingSpec {
   ShapeSpec shape;  ///< of a grain of size 1; sizes scale it
   Box box;

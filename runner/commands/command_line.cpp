@@ -104,13 +104,7 @@ Words with_options(const CLI::App& app, const Words& words) {
 
 /// Makes the examples in its help begin with the name that the program was called by.
 void call_examples(CLI::App& command) {
-  const std::string written = ": grainsweep ", called = ": " + called_as() + " ";
-  std::string text = command.get_footer();
-  for (std::size_t at = text.find(written); at != std::string::npos;
-       at = text.find(written, at + called.size())) {
-    text.replace(at, written.size(), called);
-  }
-  command.footer(text);
+  command.footer(replaced(command.get_footer(), ": grainsweep ", ": " + called_as() + " "));
 }
 
 }  // namespace

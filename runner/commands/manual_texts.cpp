@@ -4,6 +4,7 @@
 #include <cctype>
 #include <vector>
 
+#include "runner/text.hpp"
 #include "runner/versions.hpp"
 
 namespace grainsweep {
@@ -41,14 +42,6 @@ std::string names_in_set(const CLI::Option& option) {
   const std::size_t begin = type.find(":{"), end = type.rfind('}');
   if (begin == std::string::npos || end == std::string::npos) return "";
   return type.substr(begin + 2, end - begin - 2);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
 }
 
 std::string on_one_line(const std::string& text) { return replaced(text, "\n", " "); }

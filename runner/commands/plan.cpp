@@ -193,11 +193,8 @@ std::vector<std::string> cells_of(const PlannedGroup& group, const GivenUnits& u
   const double height = planned_height(spec).value_or(no_number);
   std::vector<std::string> cells = {extent, fixed(height, 1)};
   if (units) cells.push_back(fixed(height * units->d, decimals_in(*units, 1)));
-  for (const std::string& one :
-       {std::to_string(group.packings), std::to_string(grain_count(spec)),
-        duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes)}) {
-    cells.push_back(one);
-  }
+  cells.insert(cells.end(), {std::to_string(group.packings), std::to_string(grain_count(spec)),
+                             duration_text(group.cost.cpu_seconds), memory_text(group.cost.bytes)});
   return cells;
 }
 
@@ -215,10 +212,8 @@ std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNa
   const std::string extent = !has_extent(true) ? "W/d" : has_extent(false) ? "W/d, D/d" : "D/d";
   std::vector<std::string> heads = {pad_right(extent, 13), "height/d"};
   if (units) heads.push_back("height/" + printed_unit(*units));
-  for (const std::string& head : {std::string("packings"), pad_left("grains", 8),
-                                  pad_left("CPU each", 12), std::string("memory each")}) {
-    heads.push_back(head);
-  }
+  heads.insert(heads.end(),
+               {"packings", pad_left("grains", 8), pad_left("CPU each", 12), "memory each"});
   std::string text = named_lines("label", heads, lines);
   if (groups.size() > groups_shown) {
     text += "  and " + std::to_string(groups.size() - groups_shown) + " more; --json lists all\n";

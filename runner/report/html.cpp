@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "runner/report/templates.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
@@ -32,14 +33,6 @@ std::string heading_cell(const Heading& heading) {
   const std::string meaning =
       heading.meaning.empty() ? "" : " title=\"" + html_text(heading.meaning) + "\"";
   return "<th scope=\"col\"" + meaning + ">" + html_text(heading.title) + "</th>";
-}
-
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
-    text.replace(at, from.size(), to);
-    at += to.size();
-  }
-  return text;
 }
 
 /// No line ends between a value and its error.

@@ -9,11 +9,6 @@
 namespace grainsweep {
 namespace {
 
-/// What a bed needs for the zones that are left out and a slab between them, d.
-double least_height(const MeasureSpec& measure) {
-  return measure.exclude_floor + measure.exclude_surface + least_slab_height;
-}
-
 /// The beds of a block that are too low.
 struct LowBeds {
   std::size_t sets = 0, low = 0;  ///< parameter sets, and how many of them are too low

@@ -83,6 +83,7 @@ struct Parameter {
   bool are_distinct = true;                      ///< its numbers
   /// Whether it is written, or read from its file, in the unit of the diameters of a distribution.
   bool is_diameter = false;
+  bool is_share = false;  ///< whether people know it in percent, too
 };
 
 /// Why a packing does not depend on a parameter that is written; "" if it does.

@@ -16,6 +16,13 @@ Parameter of_classes(const char* path, const Interval& range, const char* meanin
              });
 }
 
+template <auto member>
+Parameter share_of_classes(const char* path, const Interval& range, const char* meaning) {
+  Parameter parameter = of_classes<member>(path, range, meaning);
+  parameter.is_share = true;
+  return parameter;
+}
+
 /// The distribution that is being written; a new one if there is none yet.
 SizeDistribution& distribution_of(ResolvedSpec& resolved) {
   auto& distribution = resolved.spec.sizes.distribution;
@@ -169,10 +176,10 @@ void to_units_of(double size, SizeDistribution& distribution) {
 
 std::vector<Parameter> size_parameters() {
   std::vector<Parameter> all = {
-      of_classes<&SizesSpec::spread>(
+      share_of_classes<&SizesSpec::spread>(
           "sizes.spread", {0, 0.2}, "standard deviation of the diameter over its mean, each class"),
-      of_classes<&SizesSpec::small_share>("sizes.small_share", {0, 1},
-                                          "share of the small class in the solid volume, 0 to 1"),
+      share_of_classes<&SizesSpec::small_share>(
+          "sizes.small_share", {0, 1}, "share of the small class in the solid volume, 0 to 1"),
       of_classes<&SizesSpec::size_ratio>("sizes.size_ratio", {0.02, 1, true},
                                          "mean diameter of the small class, d"),
   };

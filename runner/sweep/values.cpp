@@ -209,9 +209,8 @@ std::string range_error(const Parameter& parameter, const Value& value) {
   for (const double number : numbers) {
     if (parameter.range->holds(number)) continue;
     const bool is_bounded = !std::isinf(parameter.range->high);
-    const bool is_share = parameter.path.ends_with("_share") || parameter.path.ends_with("spread");
     return (is_bounded ? "must lie in " : "must be ") + parameter.range->text() + ", is " +
-           bound_text(number) + (is_share ? percent_hint(*parameter.range, number) : "");
+           bound_text(number) + (parameter.is_share ? percent_hint(*parameter.range, number) : "");
   }
   return "";
 }

@@ -7,6 +7,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include <catch2/catch.hpp>
+
 #include "runner/sweep/read_sweep.hpp"
 
 namespace grainsweep {
@@ -48,6 +50,16 @@ class ScratchFolder {
 inline SweepReading reading_of(const std::string& text) {
   const ScratchFolder folder;
   return read_sweep(folder.write("s.json", text));
+}
+
+/// What `check` notes about a sweep, which has jobs and no errors.
+template <class Check>
+std::vector<Diagnostic> notes_of(const std::string& text, const Check& check) {
+  const ScratchFolder folder;
+  const SweepReading reading = read_sweep(folder.write("s.json", text), check);
+  CHECK(reading.errors.empty());
+  CHECK_FALSE(reading.sweep.jobs.empty());
+  return reading.notes;
 }
 
 /// The messages about `text` as a user sees them, with "s.json" as the file.

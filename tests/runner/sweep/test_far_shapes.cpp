@@ -7,11 +7,7 @@ namespace grainsweep {
 namespace {
 
 std::vector<Diagnostic> notes_on_shapes(const std::string& sweep) {
-  const ScratchFolder folder;
-  const SweepReading reading = read_sweep(folder.write("s.json", sweep), notes_on_far_shapes);
-  CHECK(reading.errors.empty());
-  CHECK_FALSE(reading.sweep.jobs.empty());
-  return reading.notes;
+  return notes_of(sweep, notes_on_far_shapes);
 }
 
 TEST_CASE("a shape whose lengths are in mm is told what to divide them by") {

@@ -7,11 +7,7 @@ namespace grainsweep {
 namespace {
 
 std::vector<Diagnostic> notes_of(const std::string& sweep) {
-  const ScratchFolder folder;
-  const SweepReading reading = read_sweep(folder.write("s.json", sweep), notes_on_low_beds);
-  CHECK(reading.errors.empty());
-  CHECK_FALSE(reading.sweep.jobs.empty());
-  return reading.notes;
+  return notes_of(sweep, notes_on_low_beds);
 }
 
 TEST_CASE("beds that will probably be too low to be measured are noted, block by block") {
