@@ -4,17 +4,20 @@
 #include <cmath>
 #include <cstddef>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/polygamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 
 namespace grainsweep {
 namespace {
 
-/// Levels of the tests that a group is like the others, and that all are as much alike as usual.
-constexpr double unlike_level = 0.001, less_alike_level = 0.01;
+/// How rarely a group that is like the others is taken for one that scatters far more, and far
+/// less. What three packings happen to agree in is known too well for ever: that must be rarer.
+constexpr double far_more_level = 5e-4, far_less_level = 1e-5;
+
+/// By how much another likeness must make the variances more likely than the usual one, in
+/// logarithms: what chance alone reaches once in a hundred times.
+constexpr double telling_log_likelihood = 2.7;
 
 bool tells(const KnownVariance& one) { return one.degrees_of_freedom > 0.0 && one.variance > 0.0; }
 
@@ -44,37 +47,45 @@ std::vector<bool> alike(const std::vector<KnownVariance>& own) {
     if (!tells(one)) return false;
     const boost::math::fisher_f ratio(one.degrees_of_freedom, usual_likeness);
     const double below = boost::math::cdf(ratio, one.variance / typical);
-    return std::min(below, 1.0 - below) >= unlike_level / 2.0;
+    return below >= far_less_level && 1.0 - below >= far_more_level;
   });
   return are_alike;
 }
 
-/// Bartlett's test: whether variances are so different that one for all is out of the question.
-bool differ(const std::vector<KnownVariance>& some, const KnownVariance& pooled) {
-  double sum = pooled.degrees_of_freedom * std::log(pooled.variance), inverses = 0.0;
+/// Logarithm of how likely the variances are, but for what depends on them alone, if those of
+/// groups scatter about `common` with this likeness: s^2 / s0^2 then has an F distribution.
+double log_likelihood(const std::vector<KnownVariance>& some, double common, double likeness) {
+  double sum = 0.0;
   for (const KnownVariance& one : some) {
-    sum -= one.degrees_of_freedom * std::log(one.variance);
-    inverses += 1.0 / one.degrees_of_freedom;
+    const double d = one.degrees_of_freedom, ratio = d * one.variance / (likeness * common);
+    sum += d / 2.0 * std::log(ratio) - (d + likeness) / 2.0 * std::log1p(ratio) -
+           std::log(boost::math::beta(d / 2.0, likeness / 2.0));
   }
-  const double others = static_cast<double>(some.size()) - 1.0;
-  const double correction = 1.0 + (inverses - 1.0 / pooled.degrees_of_freedom) / (3.0 * others);
-  const boost::math::chi_squared distribution(others);
-  return boost::math::cdf(boost::math::complement(distribution, std::max(0.0, sum / correction))) <
-         less_alike_level;
+  return sum;
 }
 
-/// The x whose trigamma function is `value`, which is positive: Newton's steps for its inverse,
-/// which is nearly straight.
-double inverse_trigamma(double value) {
-  constexpr int most_steps = 50;
-  double x = 0.5 + 1.0 / value;
-  for (int step = 0; step < most_steps; ++step) {
-    const double here = boost::math::trigamma(x);
-    const double change = here * (1.0 - here / value) / boost::math::polygamma(2, x);
-    x += change;
-    if (std::abs(change) < 1e-8 * x) break;
+/// The s0^2 that makes the variances most likely: at it that likelihood's slope over log s0^2,
+/// which falls with s0^2, is 0. It lies between the least and the greatest of them.
+double most_likely(const std::vector<KnownVariance>& some, double likeness) {
+  const auto slope = [&](double common) {
+    double sum = 0.0;
+    for (const KnownVariance& one : some) {
+      const double d = one.degrees_of_freedom, ratio = d * one.variance / (likeness * common);
+      sum += (d + likeness) * ratio / (1.0 + ratio) - d;
+    }
+    return sum;
+  };
+  const auto by_variance = [](const KnownVariance& a, const KnownVariance& b) {
+    return a.variance < b.variance;
+  };
+  const auto [least, greatest] = std::minmax_element(some.begin(), some.end(), by_variance);
+  double low = std::log(least->variance), high = std::log(greatest->variance);
+  constexpr double close_enough = 1e-6;
+  while (high - low > close_enough) {
+    const double middle = (low + high) / 2.0;
+    (slope(std::exp(middle)) > 0.0 ? low : high) = middle;
   }
-  return x;
+  return std::exp((low + high) / 2.0);
 }
 
 /// What groups say of one another: their common variance, known from D degrees of freedom, and k.
@@ -85,25 +96,23 @@ struct Common {
 
 Common common_of(const std::vector<KnownVariance>& some) {
   Common common;
-  double squares = 0.0, logs = 0.0, scatter_of_few = 0.0;
+  double squares = 0.0;
   for (const KnownVariance& one : some) {
     squares += one.degrees_of_freedom * one.variance;
     common.variance.degrees_of_freedom += one.degrees_of_freedom;
-    logs += log_of(one) / static_cast<double>(some.size());
-    scatter_of_few +=
-        boost::math::trigamma(one.degrees_of_freedom / 2.0) / static_cast<double>(some.size());
   }
   common.variance.variance = squares / common.variance.degrees_of_freedom;
-  if (some.size() < 2 || !differ(some, common.variance)) return common;
-  double scatter = 0.0;
-  for (const KnownVariance& one : some) {
-    scatter += std::pow(log_of(one) - logs, 2) / (static_cast<double>(some.size()) - 1.0);
+  if (some.size() < 2) return common;
+  double best = log_likelihood(some, most_likely(some, usual_likeness), usual_likeness) +
+                telling_log_likelihood;
+  for (const double likeness : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) {
+    const double variance = most_likely(some, likeness);
+    const double here = log_likelihood(some, variance, likeness);
+    if (here <= best) continue;
+    best = here;
+    common.variance.variance = variance;
+    common.likeness = likeness;
   }
-  const double of_truth = scatter - scatter_of_few;
-  if (of_truth <= boost::math::trigamma(usual_likeness / 2.0)) return common;
-  const double half = inverse_trigamma(of_truth);
-  common.likeness = 2.0 * half;
-  common.variance.variance = std::exp(logs + boost::math::digamma(half) - std::log(half));
   return common;
 }
 

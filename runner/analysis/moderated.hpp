@@ -6,10 +6,12 @@
 //     (k s0^2 + d s^2) / (k + d)    known from    min(k + d, D)
 // where D is the sum of all d (G. K. Smyth, Statistical Applications in Genetics and Molecular
 // Biology 3, 2004, article 3; s0^2 is the pooled variance). So k is 0 where groups have nothing in
-// common and infinite where all have one variance. It is `usual_likeness`, unless Bartlett's test
-// tells that groups are less alike than that: then it follows from the scatter of log s^2.
-// A group whose variance is far beyond that (F test, 0.1 % to both sides) keeps its own, and no
-// other hears of it.
+// common and infinite where all have one variance. It is `usual_likeness`, unless a smaller one
+// makes the variances far more likely: then that is taken, with the s0^2 that goes with it. Of
+// three values that happen to agree this says nothing, as their variance is as likely near 0
+// whatever k is; Bartlett's test and the scatter of log s^2, which they decide, would give up what
+// others say. A group whose variance is far beyond that (F test, 0.05 % above, 0.001 % below) keeps
+// its own, and no other hears of it.
 #pragma once
 
 #include <vector>

@@ -59,6 +59,29 @@ TEST_CASE("values that are all the same tell nothing, and have what others say")
   CHECK(copies[1].degrees_of_freedom == 0.0);
 }
 
+// Beds of which the middle three were within 0.0006 of one Z: the others tell that this is chance.
+TEST_CASE("few values that happen to agree have nearly the error of others") {
+  for (const double near_nothing : {1e-2, 1e-3, 3e-4}) {
+    const auto all = moderated({{1.0, 2.0}, {near_nothing, 2.0}, {1.3, 2.0}});
+    const double pooled = (2 * 1.0 + 2 * near_nothing + 2 * 1.3) / 6;
+    CHECK(all[1].variance ==
+          Approx((usual_likeness * pooled + 2 * near_nothing) / (usual_likeness + 2)));
+    CHECK(all[1].degrees_of_freedom == 6.0);
+  }
+  // Of ten values that is no chance.
+  CHECK(moderated({{1.0, 9.0}, {1e-3, 9.0}, {1.3, 9.0}})[1].variance == 1e-3);
+}
+
+TEST_CASE("groups that have little in common keep nearly their own variances") {
+  std::vector<KnownVariance> own;
+  for (int k = 0; k < 20; ++k) own.push_back({std::pow(2.0, k % 7 - 3), 20.0});
+  const auto all = moderated(own);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    CHECK(std::abs(std::log(all[i].variance / own[i].variance)) < 0.3);
+    CHECK(all[i].degrees_of_freedom < 25.0);
+  }
+}
+
 /// Mean over many families of how often 1.96 errors of the mean of n values hold the truth. The
 /// standard deviations of groups are `sigma`, times a factor drawn with so many degrees of freedom
 /// (infinite if 0).
