@@ -110,8 +110,10 @@ bool check_side(const char* path, double side, Boundary boundary, double shortes
   }
   const bool is_in_metres = side > 0.0 && side < 0.2;
   const std::string unit = is_in_metres ? "; lengths are in d, a large grain's mean diameter" : "";
-  errors.push_back({path, "must lie in [" + bound_text(needed) + ", " + bound_text(longest_side) +
-                              "]" + reason + ", is " + bound_text(side) + unit});
+  errors.push_back({path,
+                    "must lie in [" + bound_text(needed) + ", " + bound_text(longest_side) + "]" +
+                        reason + ", is " + bound_text(side) + unit,
+                    side > 0.0 ? needed / side : 0.0});
   return false;
 }
 
@@ -321,6 +323,11 @@ std::string left_out_text(const MeasureSpec& measure) {
              : "measure.exclude_floor, measure.exclude_surface";
 }
 
+/// How many times the fill makes a bed that is measured, by probable_height with a tenth to spare.
+double enough_over_given(const PackingSpec& spec) {
+  return 1.1 * least_height(spec.measure) / probable_height(spec);
+}
+
 /// Refuses a bed that must come out too low to be measured. Its highest grains stand out by one
 /// diameter.
 void check_height(const PackingSpec& spec, double across, Errors& errors) {
@@ -339,7 +346,8 @@ void check_height(const PackingSpec& spec, double across, Errors& errors) {
                         bound_text(least_slab_height) + " d between them take " +
                         number_text(needed) + " d" +
                         (placed ? wrong_diameter
-                                : "; give " + enough_fill(spec) + " or more, or leave less out")});
+                                : "; give " + enough_fill(spec) + " or more, or leave less out"),
+                    placed ? 0.0 : enough_over_given(spec)});
 }
 
 /// How far the highest grain falls at least, d, where a start may be as dense as the loosest beds.
@@ -388,16 +396,32 @@ void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
   check_fall(spec, across * outcome_size(spec), errors);
 }
 
-/// A hull far larger or smaller than d has the wrong unit, whatever other errors follow from that.
-void hint_at_size(const ShapeSpec& shape, double across, Errors& errors) {
-  if (!has_hull(shape) || (across > 0.2 && across < 5.0)) return;
+/// A hull far larger or smaller than d has the wrong unit: what to say of it, as `owner`, whose
+/// size is `size`; "" if it has not.
+std::string hint_at_hull(const ShapeSpec& shape, const std::string& owner,
+                         const std::string& size) {
+  if (!std::holds_alternative<HullVertices>(shape)) return "";
+  const double across = 2.0 * extent_of(shape).circumradius;
+  if (across > 0.2 && across < 5.0) return "";
+  return "; " + owner + " is " + number_text(across) + " d across: " + size +
+         ", the length in its vertices that is d, is missing or wrong";
+}
+
+/// Says of hulls in the wrong unit that they are, whatever other errors follow from that. The shape
+/// must be allowed.
+void hint_at_size(const ShapeSpec& shape, Errors& errors) {
+  std::string hint = hint_at_hull(shape, "the shape", "shape.hull.size");
+  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
+    for (std::size_t k = 0; k < mixture->components.size(); ++k) {
+      const std::string number = std::to_string(k + 1);
+      hint += hint_at_hull(mixture->components[k].shape, "component " + number + " of the mixture",
+                           "its hull.size");
+    }
+  }
   for (SpecError& error : errors) {
     const bool is_of_size = error.path.starts_with("box.") || error.path.starts_with("fill.") ||
-                            error.path.starts_with("shape.");
-    if (!is_of_size) continue;
-    error.message += "; the shape is " + number_text(across) +
-                     " d across: shape.hull.size, the length in its vertices that is d, is missing "
-                     "or wrong";
+                            error.path.starts_with("shape.") || error.path.starts_with("tube.");
+    if (is_of_size) error.message += hint;
   }
 }
 
@@ -542,7 +566,9 @@ bool has_equal_grains(const PackingSpec& spec) {
 void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
   if (!is_sphere(spec.shape)) {
     errors.push_back(
-        {"accuracy.rest", "must be in_steps for grains that are not spheres, is exact"});
+        {"accuracy.rest",
+         "must be in_steps for grains that are not spheres, is exact; accurate is the preset that "
+         "settles them best"});
     return;
   }
   const bool have_room = nearest_walls(spec.box) >= narrowest_exact * largest;
@@ -560,7 +586,7 @@ double probable_height(const PackingSpec& spec) {
 }
 
 std::string enough_fill(const PackingSpec& spec) {
-  const double times = 1.1 * least_height(spec.measure) / probable_height(spec);
+  const double times = enough_over_given(spec);
   if (const auto* grains = std::get_if<GrainCount>(&spec.fill)) {
     return joined("fill.grains ",
                   static_cast<std::int64_t>(std::ceil(static_cast<double>(grains->count) * times)));
@@ -579,10 +605,11 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const bool box = has_room && check_box(spec.box, largest, errors);
   const double narrowest = narrowest_tube * across * (sizes ? outcome_size(spec) : 1.0);
   if (has_room && spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
-    errors.push_back({"tube.diameter", "must be at least " + bound_text(narrowest) + " (" +
-                                           bound_text(narrowest_tube) +
-                                           " times the extent of these grains), is " +
-                                           bound_text(spec.box.length)});
+    errors.push_back({"tube.diameter",
+                      "must be at least " + bound_text(narrowest) + " (" +
+                          bound_text(narrowest_tube) + " times the extent of these grains), is " +
+                          bound_text(spec.box.length),
+                      spec.box.length > 0.0 ? narrowest / spec.box.length : 0.0});
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
@@ -591,7 +618,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
   if (errors.empty()) check_outcome(spec, across, errors);
-  hint_at_size(spec.shape, across, errors);
+  if (shape) hint_at_size(spec.shape, errors);
   return errors;
 }
 

@@ -152,6 +152,9 @@ struct PackingSpec {
 struct SpecError {
   std::string path;
   std::string message;
+  /// How many times as much as is given the rule asks for, where the message says how much: of many
+  /// specifications that break it, the one that asks for most is worth telling.
+  double asked = 0.0;
 };
 
 /// Every rule that `spec` breaks; empty when it can be packed.

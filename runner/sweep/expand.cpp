@@ -270,7 +270,8 @@ class Expansion {
       const bool is_of_preset =
           has_place && parameters()[assignment->parameter].role == Role::preset;
       const std::string subject = has_place && !is_of_preset ? "" : error.path + " ";
-      problems_.note(pointer + " " + error.path, pointer, subject + error.message, assignment);
+      problems_.note(pointer + " " + error.path, pointer, subject + error.message, assignment,
+                     error.asked);
     }
   }
 

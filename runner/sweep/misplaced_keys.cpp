@@ -41,6 +41,22 @@ bool takes_list(const std::string& path) {
   }
 }
 
+bool has(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Where `value` belongs that is written as `key` into the wrong place; "" if nobody knows.
+std::string where_to_put(const std::string& key, const Json& value, const KeysOfPlace& place) {
+  if (has(place.elsewhere, key)) return "put it " + place.other_place;
+  const bool is_meant = is_path(key);
+  const bool is_misspelt = !is_meant && !nearest(key, place.known).empty();
+  const std::string path = is_meant ? key : is_misspelt ? "" : path_without_groups(key);
+  if (path.empty()) return "";
+  const bool is_listed = value.is_array() && !place.grid.empty() && !takes_list(path);
+  return (path == key ? "put it" : "put \"" + path + "\"") + " into \"" +
+         (is_listed ? place.grid : place.layer) + "\"";
+}
+
 }  // namespace
 
 std::string dotted(const std::string& path, const std::string& key) {
@@ -76,19 +92,14 @@ std::string path_with_members(const std::string& path) {
   return found;
 }
 
-void refuse_misplaced_keys(const Json& object, const std::string& pointer,
-                           const std::vector<std::string>& known, const std::string& layer,
-                           const std::string& grid, Diagnostics& diagnostics) {
+void refuse_misplaced_keys(const Json& object, const std::string& pointer, const KeysOfPlace& place,
+                           Diagnostics& diagnostics) {
   for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const bool is_meant = is_path(key);
-    const bool is_misspelt = !is_meant && !nearest(key, known).empty();
-    const std::string path = is_meant ? key : is_misspelt ? "" : path_without_groups(key);
-    const std::string home = value.is_array() && !grid.empty() && !takes_list(path) ? grid : layer;
-    const std::string put = (path == key ? "put it" : "put \"" + path + "\"") + " into \"" + home;
+    if (has(place.known, key)) continue;
+    const std::string put = where_to_put(key, value, place);
     diagnostics.push_back(
         {child_pointer(pointer, key),
-         path.empty() ? unknown_key(key, known) : "unknown key \"" + key + "\" here; " + put + "\"",
+         put.empty() ? unknown_key(key, place.known) : "unknown key \"" + key + "\" here; " + put,
          Anchor::key});
   }
 }

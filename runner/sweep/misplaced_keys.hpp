@@ -22,12 +22,18 @@ std::string path_that_ends_in(const std::string& key, const std::string& group);
 /// none.
 std::string path_with_members(const std::string& path);
 
-/// Notes each member of `object`, which stands at `pointer`, that is not known there. Parameters,
-/// and groups of them, belong into the member `layer`; lists of their values into `grid`, if that
-/// is not empty.
-void refuse_misplaced_keys(const Json& object, const std::string& pointer,
-                           const std::vector<std::string>& known, const std::string& layer,
-                           const std::string& grid, Diagnostics& diagnostics);
+/// What the object at a place may hold, and where the rest belongs.
+struct KeysOfPlace {
+  std::vector<std::string> known = {};
+  std::string layer = {};  ///< the member that holds parameters, and groups of them
+  std::string grid = {};   ///< that of lists of their values; "" if it has none
+  std::vector<std::string> elsewhere = {};  ///< keys of another place
+  std::string other_place = {};             ///< where those belong: `into an entry of "sweep"`
+};
+
+/// Notes each member of `object`, which stands at `pointer`, that is not known there.
+void refuse_misplaced_keys(const Json& object, const std::string& pointer, const KeysOfPlace& place,
+                           Diagnostics& diagnostics);
 
 /// What to write for an object of lists, {"diameter": [3, 4]}, in the place of a list for the group
 /// `path`: `"tube.diameter": [3, 4]`; "" if it holds something else.

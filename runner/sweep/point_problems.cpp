@@ -38,7 +38,7 @@ void PointProblems::begin_point(const Block& block, const std::vector<const Assi
 }
 
 void PointProblems::note(const std::string& key, const std::string& pointer,
-                         const std::string& message, const Assignment* value) {
+                         const std::string& message, const Assignment* value, double asked) {
   const auto [entry, is_new] = said_.try_emplace(key_in_block(key, message));
   Said& said = entry->second;
   if (is_new) {
@@ -46,16 +46,24 @@ void PointProblems::note(const std::string& key, const std::string& pointer,
     said.holder = value != nullptr ? static_cast<const void*>(value) : block_;
     said.first_point = point_;
     said.where = name_of_point();
+    said.asked = asked;
   }
   if (said.last_point != point_) ++said.points;
   said.last_point = point_;
   if (has_said(said, message)) return;
   if (said.first_point != point_) {
     said.differs = true;
+    if (asked > said.asked && said.diagnostics.size() == 1) tell_instead(said, message, asked);
     return;
   }
   said.diagnostics.push_back(diagnostics_.size());
   diagnostics_.push_back({pointer, message});
+}
+
+void PointProblems::tell_instead(Said& said, const std::string& message, double asked) {
+  diagnostics_[said.diagnostics.front()].message = message;
+  said.where = name_of_point();
+  said.asked = asked;
 }
 
 bool PointProblems::has_said(const Said& said, const std::string& message) const {

@@ -1,6 +1,6 @@
 // Which rules the points of a sweep break. Each value is named once, for the first point that
-// breaks a rule with it. If other points with that value break no rule, or break it in another way,
-// the message says which point it is about.
+// breaks a rule with it, or for the one that asks for most. If other points with that value break
+// no rule, or break it in another way, the message says which point it is about.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,9 @@ class PointProblems {
 
   /// Notes at `pointer` what the point breaks with `value`, or with a default if that is null. A
   /// problem with the same `key` is noted for the first point only, and for the first one of each
-  /// block that has another message.
+  /// block that has another message; a later point takes its place if more is `asked` of it.
   void note(const std::string& key, const std::string& pointer, const std::string& message,
-            const Assignment* value);
+            const Assignment* value, double asked = 0.0);
 
   /// Treats a problem with this key as noted already.
   void skip(const std::string& key) { said_.try_emplace(key); }
@@ -48,11 +48,13 @@ class PointProblems {
     const Block* block = nullptr;               ///< of the first point
     const void* holder = nullptr;               ///< the value, or its block: an address alone
     std::uint64_t first_point = 0, last_point = 0, points = 0;  ///< that break the rule
-    bool differs = false;                                       ///< at a later point
-    std::string where = {};                                     ///< the first point
+    bool differs = false;                                       ///< at another point
+    std::string where = {};                                     ///< the point that is told
+    double asked = 0.0;                                         ///< of that
   };
 
   std::string name_of_point() const;
+  void tell_instead(Said& said, const std::string& message, double asked);
   bool has_said(const Said& said, const std::string& message) const;
   /// The key under which a message is noted: another one in a block where it differs.
   std::string key_in_block(const std::string& key, const std::string& message) const;

@@ -320,6 +320,25 @@ class BlockReader {
   std::vector<Varied> varied_;
 };
 
+const KeysOfPlace& keys_of_file() {
+  static const KeysOfPlace keys = {
+      .known = {"name", "seed", "replicates", "units", "base", "sweep", "$schema"},
+      .layer = "base",
+      .elsewhere = {"label", "set", "grid", "zip", "random"},
+      .other_place = R"(into an entry of the list "sweep")"};
+  return keys;
+}
+
+const KeysOfPlace& keys_of_block() {
+  static const KeysOfPlace keys = {
+      .known = {"label", "set", "grid", "zip", "random", "replicates"},
+      .layer = "set",
+      .grid = "grid",
+      .elsewhere = {"name", "units", "base", "sweep", "$schema"},
+      .other_place = R"(beside "sweep", where it holds for all of the sweep)"};
+  return keys;
+}
+
 /// `room`: how many more points the sweep may have.
 Block read_block(const Json& json, std::size_t index, std::uint64_t room,
                  const SweepDefinition& definition, Diagnostics& diagnostics) {
@@ -330,9 +349,7 @@ Block read_block(const Json& json, std::size_t index, std::uint64_t room,
                  diagnostics)) {
     return block;
   }
-  refuse_misplaced_keys(json, block.pointer,
-                        {"label", "set", "grid", "zip", "random", "replicates"}, "set", "grid",
-                        diagnostics);
+  refuse_misplaced_keys(json, block.pointer, keys_of_block(), diagnostics);
   block.label = read_label(json, block.pointer, index + 1, diagnostics);
   block.replicates = read_replicates(json, block.pointer, definition.replicates, diagnostics);
   BlockReader(json, block, room, diagnostics).read();
@@ -384,9 +401,7 @@ SweepDefinition read_definition(const Json& file, Diagnostics& diagnostics) {
                  diagnostics)) {
     return definition;
   }
-  refuse_misplaced_keys(file, "",
-                        {"name", "seed", "replicates", "units", "base", "sweep", "$schema"}, "base",
-                        "", diagnostics);
+  refuse_misplaced_keys(file, "", keys_of_file(), diagnostics);
   expect_schema_name(file, diagnostics);
   definition.name = read_name(file, diagnostics);
   definition.seed = read_seed(file, diagnostics);

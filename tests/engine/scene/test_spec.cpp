@@ -607,7 +607,9 @@ TEST_CASE("exact rest is for spheres of any sizes") {
   };
   CHECK(exact({}).empty());
   CHECK(exact(PinacoidSize{}) ==
-        Messages{"accuracy.rest: must be in_steps for grains that are not spheres, is exact"});
+        Messages{
+            "accuracy.rest: must be in_steps for grains that are not spheres, is exact; accurate "
+            "is the preset that settles them best"});
 }
 
 TEST_CASE("exact rest takes some room between walls that hold all grains of one size") {

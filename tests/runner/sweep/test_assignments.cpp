@@ -73,7 +73,7 @@ TEST_CASE("a container without parts is a box with its defaults, and no tube") {
 TEST_CASE("what a preset breaks is told where the preset is named") {
   CHECK(errors_in_base(R"({"shape": "cube", "accuracy": "exact"})") ==
         Messages{"s.json:2:31 /base/accuracy: accuracy.rest must be in_steps for grains that are "
-                 "not spheres, is exact"});
+                 "not spheres, is exact; accurate is the preset that settles them best"});
 }
 
 TEST_CASE("a sweep that names no accuracy is balanced") {

@@ -8,7 +8,12 @@ namespace {
 /// What is said of the members of an object that knows "set" and "grid".
 std::vector<std::string> said_of(const std::string& object) {
   Diagnostics diagnostics;
-  refuse_misplaced_keys(Json::parse(object), "", {"set", "grid"}, "set", "grid", diagnostics);
+  const KeysOfPlace place = {.known = {"set", "grid"},
+                             .layer = "set",
+                             .grid = "grid",
+                             .elsewhere = {"base"},
+                             .other_place = "at the top"};
+  refuse_misplaced_keys(Json::parse(object), "", place, diagnostics);
   std::vector<std::string> said;
   for (const Diagnostic& one : diagnostics) said.push_back(one.message);
   return said;
@@ -21,6 +26,11 @@ TEST_CASE("a path that leaves out groups is found by the members that it has") {
   CHECK(path_with_members("lognormal.sizes.sigma").empty());  // in another order
   CHECK(path_with_members("sizes.lognormal.sigmas").empty());
   CHECK(path_with_members("sigma").empty());
+}
+
+TEST_CASE("keys of another place are told which") {
+  CHECK(said_of(R"({"base": {"box.width": 5}})") ==
+        std::vector<std::string>{R"(unknown key "base" here; put it at the top)"});
 }
 
 TEST_CASE("parameters beside their object are told where to go") {
