@@ -29,7 +29,7 @@ double number_of_cell(const std::string& cell) {
 
 /// Parts of a preset count as one value: its name.
 bool is_part_of_preset(const Group& group, const std::string& path) {
-  return path.starts_with("accuracy.") && group.job.accuracy != "custom";
+  return path.starts_with("accuracy.") && group.is_told_by_preset;
 }
 
 using Values = std::map<std::string, std::string>;  // by parameter
@@ -52,18 +52,21 @@ Values distinctions(const Group& group, const std::string& left_out) {
   Values values;
   const std::vector<std::string> components = component_names(group.job);
   const bool is_mixture_of_two = components.size() == 2 && component_of_share(left_out) > 0;
+  bool names_components = false;
   for (const auto& [path, cell] : group.told) {
     if (path == left_out) continue;
     if (path == diameter_parameter && lies_by_diameter(group, left_out)) continue;
     const std::size_t component = component_of_share(path);
     if (component > 0 && is_mixture_of_two) continue;
-    if (component > 0 && component <= components.size())
+    if (component > 0 && component <= components.size()) {
       values[path] = components[component - 1] + " " + cell;
-    else if (is_part_of_preset(group, path))
+      names_components = true;
+    } else if (is_part_of_preset(group, path))
       values["accuracy"] = group.job.accuracy;
     else
       values[path] = unquoted(cell);
   }
+  if (names_components) values.erase("shape");
   return values;
 }
 
@@ -279,13 +282,33 @@ double value_of(const Group& group, const std::string& parameter) {
   return number_of_cell(group.varied.at(parameter));
 }
 
+namespace {
+
+/// "creep steps" of "accuracy.creep_steps"; parts of shapes, distributions and containers with what
+/// they are parts of: "prism height".
+std::string words_of_path(const std::string& path) {
+  const std::size_t last = path.rfind('.');
+  const std::size_t before = last == std::string::npos ? last : path.rfind('.', last - 1);
+  const bool is_part = path.starts_with("box.") || before != std::string::npos;
+  const std::size_t begin = !is_part ? last : before;
+  std::string text = begin == std::string::npos ? path : path.substr(begin + 1);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  if (text.ends_with(" deg")) text.erase(text.rfind(' '));  // as its unit says
+  return text;
+}
+
+}  // namespace
+
 std::string axis_title(const std::string& parameter) {
   if (parameter.empty()) return "parameter set";
   if (parameter == width_parameter) return "gap between the walls, W / d";
   if (parameter == diameter_parameter) return "diameter of the tube, D / d";
   if (parameter == "sizes.small_share") return "share of small grains in the solid volume";
   const auto known = find_parameter(parameter);
-  return known ? parameters()[*known].path : parameter;
+  if (!known) return parameter;
+  const std::string& unit = parameters()[*known].unit;
+  return words_of_path(parameter) + (unit.empty() ? "" : " / " + unit);
 }
 
 bool is_over_width(const Axes& axes) {
@@ -393,20 +416,22 @@ bool are_different(const std::vector<std::string>& texts) {
   return std::set<std::string>(texts.begin(), texts.end()).size() == texts.size();
 }
 
-/// Labels and values; labels are shortened where that makes room.
+/// Labels and values; labels are shortened where that makes room, each alike wherever it stands.
 std::vector<std::string> titles_with(const std::vector<Values>& values,
                                      const std::vector<const Group*>& groups, std::size_t longest) {
   constexpr std::size_t shortest_label = 6;
-  std::size_t room = longest;  // for labels
-  for (const Values& one : values) {
-    const std::size_t taken = characters(joined_title(" ", words(one))) - 1;
+  std::map<std::string, std::size_t> rooms;  // by label
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const std::size_t taken = characters(joined_title(" ", words(values[k]))) - 1;
+    std::size_t& room = rooms.try_emplace(groups[k]->job.label, longest).first->second;
     room = std::min(room, longest - std::min(longest, taken));
   }
   std::vector<std::string> titles;
   titles.reserve(groups.size());
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const std::string label = shortened(groups[k]->job.label, std::max(room, shortest_label));
-    titles.push_back(joined_title(label, words(values[k])));
+    const std::string& label = groups[k]->job.label;
+    const std::size_t room = std::max(rooms[label], shortest_label);
+    titles.push_back(joined_title(shortened(label, room), words(values[k])));
   }
   return titles;
 }

@@ -10,6 +10,7 @@
 #include "runner/compare/formula.hpp"
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
+#include "runner/sweep/parameters.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/text.hpp"
 
@@ -161,7 +162,8 @@ std::string lacking_text(const Axes& axes) {
   for (const Series& series : axes.series) {
     if (lacks_place(axes, series)) names += (names.empty() ? "" : "; ") + series.name;
   }
-  return names.empty() ? "" : " No point for " + names + ": without " + axes.title + ".";
+  const std::string lacked = find_parameter(axes.parameter) ? axes.parameter : axes.title;
+  return names.empty() ? "" : " No point for " + names + ": without " + lacked + ".";
 }
 
 std::string points_csv(const Axes& axes) {
@@ -196,6 +198,13 @@ std::string residuals_csv(const std::vector<FittedSeries>& all) {
   return text;
 }
 
+/// Where an axis of numbers other than widths has tics: groups are counted in whole ones.
+std::string number_tics(const Axes& axes, const Range& range) {
+  constexpr double most = 6.0;
+  const double step = tic_step(range.high - range.low, most);
+  return cell(axes.parameter.empty() ? std::max(1.0, step) : step);
+}
+
 /// The axis below, and above it the widths themselves where it is d / W or d / D.
 std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest) {
   std::vector<double> at;
@@ -205,7 +214,9 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
     if (group->job.box.y == Boundary::walls) widths.insert(group->job.box.width);
   }
   if (is_over_width(axes)) at.push_back(0.0);
-  std::string text = range_command("x", range_of(at, 0.06));
+  const Range range = range_of(at, 0.06);
+  std::string text = range_command("x", range);
+  text += "set xtics " + (is_over_width(axes) ? "autofreq" : number_tics(axes, range)) + "\n";
   text += is_lowest ? "set format x\n" : "set format x ''\n";
   text += label_command("x", is_lowest ? abscissa_title(axes) : "");
   text += "unset x2tics\nunset x2label\n";

@@ -208,14 +208,17 @@ std::string written_in_panel(const std::string& text) {
   return "set " + label + " " + gnuplot_text(text) + " at graph 0.5,0.5 center noenhanced\n";
 }
 
+double tic_step(double span, double most) {
+  const double least = span / most, power = std::pow(10.0, std::floor(std::log10(least)));
+  return least <= power         ? power
+         : least <= 2.0 * power ? 2.0 * power
+         : least <= 5.0 * power ? 5.0 * power
+                                : 10.0 * power;
+}
+
 /// Tics, few enough for a narrow panel from 0 to `end`.
 std::string step_tics_command(const std::string& axis, double end) {
-  const double least = end / 4.0, power = std::pow(10.0, std::floor(std::log10(least)));
-  const double step = least <= power         ? power
-                      : least <= 2.0 * power ? 2.0 * power
-                      : least <= 5.0 * power ? 5.0 * power
-                                             : 10.0 * power;
-  return "set " + axis + "tics " + cell(step) + "\n";
+  return "set " + axis + "tics " + cell(tic_step(end, 4.0)) + "\n";
 }
 
 std::set<BinsAcross> bins_across(const std::vector<GroupWithCurves>& groups) {

@@ -145,6 +145,9 @@ std::string bars_text(const std::vector<Bars>& panels, const std::string& of = "
 /// The range of these values with some room at both ends, a share of it.
 Range range_of(std::vector<double> values, double room);
 
+/// The step, 1, 2 or 5 times a power of ten, that puts about `most` tics on an axis over `span`.
+double tic_step(double span, double most);
+
 /// "set xrange [0.1:0.3]"; with low above high the axis runs downwards.
 std::string range_command(const std::string& axis, const Range& range);
 

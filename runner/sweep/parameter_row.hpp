@@ -92,6 +92,12 @@ inline Parameter own(const char* path, const WrittenValues& limits, const char* 
   return parameter;
 }
 
+/// The row with its numbers in `unit`.
+inline Parameter in(const char* unit, Parameter parameter) {
+  parameter.unit = unit;
+  return parameter;
+}
+
 /// The row of a member of a packing's specification that is set and read as it is.
 template <auto... members>
 Parameter row(const char* path, const WrittenValues& limits, const char* meaning) {

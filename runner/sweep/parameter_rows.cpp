@@ -37,14 +37,15 @@ Rows container_rows() {
                             {"periodic", "what leaves on one side comes in on the other"},
                             {"walls", "two flat walls without friction"}};
   return {
-      of_box<&Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d"),
-      of_box<&Box::width>("box.width", Interval{1, 10000},
-                          "extent of the box along y, d: the gap between walls"),
+      in("d",
+         of_box<&Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d")),
+      in("d", of_box<&Box::width>("box.width", Interval{1, 10000},
+                                  "extent of the box along y, d: the gap between walls")),
       of_box<&Box::x>("box.x", boundaries, "what bounds the box along x"),
       of_box<&Box::y>("box.y", boundaries, "what bounds the box along y"),
-      own("tube.diameter", Interval{1, 10000},
-          "inner diameter D of an upright round tube in the box's place, d", ValueKind::number,
-          Role::tube, set_tube, get_tube),
+      in("d", own("tube.diameter", Interval{1, 10000},
+                  "inner diameter D of an upright round tube in the box's place, d",
+                  ValueKind::number, Role::tube, set_tube, get_tube)),
   };
 }
 
@@ -86,9 +87,9 @@ Rows fill_rows() {
                          Role::fill, set_grains, get_grains);
   grains.largest = std::numeric_limits<std::int64_t>::max();
   return {
-      own("fill.solid_height", Interval{0, 1000, true},
-          "solid volume per floor area, d; as many grains as fill it up", ValueKind::number,
-          Role::fill, set_solid_height, get_solid_height),
+      in("d", own("fill.solid_height", Interval{0, 1000, true},
+                  "solid volume per floor area, d; as many grains as fill it up", ValueKind::number,
+                  Role::fill, set_solid_height, get_solid_height)),
       std::move(grains),
       own("fill.file", WrittenValues{},
           "CSV file of x,y,z,r, and qx,qy,qz,qw of non-spherical grains, and of a mixture "
@@ -155,18 +156,21 @@ Rows accuracy_rows() {
           Names{{"in_steps", "steps pass every test of rest"},
                 {"exact", "then on to where all forces balance; spheres only"}},
           "what counts as settled: rest in steps, or, of spheres, exact rest after it"),
-      row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2}, "time step, sqrt(d/g)"),
+      in("sqrt(d/g)",
+         row<&S::accuracy, &A::step>("accuracy.step", Interval{1e-4, 2}, "time step, sqrt(d/g)")),
       row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},
                                              "most solver iterations per step of fall and creep"),
-      row<&S::accuracy, &A::path_tolerance>(
-          "accuracy.path_tolerance", Interval{1e-9},
-          "how far contacts may stray, d, root mean square: in a full step of the fall of "
-          "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
-          "polyhedra 80 to 100 times (up to 160 where creep_steps is below 200); less, by the "
-          "square of their distance, between walls "
-          "nearer than 5 d, in ducts and tubes of less than 7 d and in shorter periods than 5 d"),
+      in("d",
+         row<&S::accuracy, &A::path_tolerance>(
+             "accuracy.path_tolerance", Interval{1e-9},
+             "how far contacts may stray, d, root mean square: in a full step of the fall of "
+             "polyhedra so far, of spheres twice, in all steps of a creep 160 times, of "
+             "polyhedra 80 to 100 times (up to 160 where creep_steps is below 200); less, by the "
+             "square of their distance, between walls "
+             "nearer than 5 d, in ducts and tubes of less than 7 d and in shorter periods than 5 "
+             "d")),
       row<&S::accuracy, &A::creep_steps>("accuracy.creep_steps", Interval{0, 1000000},
                                          "steps after the fall, while the bed creeps to rest, "
                                          "where step is 0.2, in proportion where it is shorter; "
@@ -177,23 +181,27 @@ Rows accuracy_rows() {
                                              "most solver iterations per step at rest, or 1.5 for "
                                              "each mean diameter of height if that "
                                              "is more; spheres take up to twice as many"),
-      row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
-                                                "worst residual of the last step at rest, m g"),
-      row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
-                                               "kinetic energy per grain at rest, m g d"),
+      in("m g",
+         row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
+                                                   "worst residual of the last step at rest, m g")),
+      in("m g d",
+         row<&S::accuracy, &A::kinetic_tolerance>("accuracy.kinetic_tolerance", positive,
+                                                  "kinetic energy per grain at rest, m g d")),
       row<&S::accuracy, &A::contact_tolerance>(
           "accuracy.contact_tolerance", positive,
           "share of the isostatic contacts that may be missing at rest"),
-      row<&S::accuracy, &A::overlap_tolerance>(
-          "accuracy.overlap_tolerance", positive,
-          "mean overlap of touching pairs at rest, d; no pair more than a hundred times it"),
-      row<&S::accuracy, &A::imbalance_tolerance>("accuracy.imbalance_tolerance", positive,
-                                                 "mean static imbalance at rest, in own weights; "
-                                                 "no grain more than 15 times it. A bed slides "
-                                                 "on until its motion tells of no more"),
-      row<&S::accuracy, &A::imbalance_gap>(
-          "accuracy.imbalance_gap", Interval{0, 0.01, true},
-          "contacts with a smaller gap carry the bed statically, d"),
+      in("d",
+         row<&S::accuracy, &A::overlap_tolerance>(
+             "accuracy.overlap_tolerance", positive,
+             "mean overlap of touching pairs at rest, d; no pair more than a hundred times it")),
+      in("own weights", row<&S::accuracy, &A::imbalance_tolerance>(
+                            "accuracy.imbalance_tolerance", positive,
+                            "mean static imbalance at rest, in own weights; "
+                            "no grain more than 15 times it. A bed slides "
+                            "on until its motion tells of no more")),
+      in("d", row<&S::accuracy, &A::imbalance_gap>(
+                  "accuracy.imbalance_gap", Interval{0, 0.01, true},
+                  "contacts with a smaller gap carry the bed statically, d")),
       row<&S::accuracy, &A::max_steps>("accuracy.max_steps", Interval{1, 2147483647},
                                        "steps after which a bed counts as not settled"),
   };
@@ -203,16 +211,16 @@ Rows measure_rows() {
   using S = PackingSpec;
   using M = MeasureSpec;
   return {
-      row<&S::measure, &M::exclude_floor>("measure.exclude_floor", Interval{0, 1000},
-                                          "zone above the floor left out, d"),
-      row<&S::measure, &M::exclude_surface>("measure.exclude_surface", Interval{0, 1000},
-                                            "zone below the surface left out, d"),
-      row<&S::measure, &M::gap_tolerances>(
-          "measure.gap_tolerances", Interval{0, 0.1, true, true},
-          "grains touch below these gaps, d, 1 to 8 of them; the first is the headline"),
-      row<&S::measure, &M::bin_width>(
-          "measure.bin_width", Interval{0.01, 10000},
-          "width of the bins of profiles, d; at most box.width or half of tube.diameter"),
+      in("d", row<&S::measure, &M::exclude_floor>("measure.exclude_floor", Interval{0, 1000},
+                                                  "zone above the floor left out, d")),
+      in("d", row<&S::measure, &M::exclude_surface>("measure.exclude_surface", Interval{0, 1000},
+                                                    "zone below the surface left out, d")),
+      in("d", row<&S::measure, &M::gap_tolerances>(
+                  "measure.gap_tolerances", Interval{0, 0.1, true, true},
+                  "grains touch below these gaps, d, 1 to 8 of them; the first is the headline")),
+      in("d", row<&S::measure, &M::bin_width>(
+                  "measure.bin_width", Interval{0.01, 10000},
+                  "width of the bins of profiles, d; at most box.width or half of tube.diameter")),
   };
 }
 

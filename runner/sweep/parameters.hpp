@@ -84,6 +84,7 @@ struct Parameter {
   /// Whether it is written, or read from its file, in the unit of the diameters of a distribution.
   bool is_diameter = false;
   bool is_share = false;  ///< whether people know it in percent, too
+  std::string unit = {};  ///< of its numbers in tables and figures: "d"; "" if they have none
 };
 
 /// Why a packing does not depend on a parameter that is written; "" if it does.

@@ -69,8 +69,12 @@ Parameter part_of(T Size::* /*member*/, const char* path, const Interval& range,
              get_part<Size, member>);
 }
 template <auto member>
-Parameter part(const char* path, const char* meaning, const Interval& range = lengths_of_shapes) {
+Parameter part(const char* path, const char* meaning, const Interval& range) {
   return part_of<member>(member, path, range, meaning);
+}
+template <auto member>
+Parameter length(const char* path, const char* meaning) {
+  return in("d", part<member>(path, meaning, lengths_of_shapes));
 }
 
 void set_angle(ResolvedSpec& resolved, const Value& value) {
@@ -141,12 +145,12 @@ Names usual_shapes() {
 
 Rows pinacoid_rows() {
   using P = PinacoidSize;
-  return {part<&P::length>("shape.pinacoid.length", "length of the middle plane, d"),
-          part<&P::width>("shape.pinacoid.width", "width of the middle plane, d"),
-          part<&P::height>("shape.pinacoid.height", "distance of its two ridges, d"),
-          own("shape.pinacoid.angle_deg", Interval{0, 89, true},
-              "angle between ends and middle plane, degrees", ValueKind::number, Role::shape_part,
-              set_angle, get_angle)};
+  return {length<&P::length>("shape.pinacoid.length", "length of the middle plane, d"),
+          length<&P::width>("shape.pinacoid.width", "width of the middle plane, d"),
+          length<&P::height>("shape.pinacoid.height", "distance of its two ridges, d"),
+          in("degrees", own("shape.pinacoid.angle_deg", Interval{0, 89, true},
+                            "angle between ends and middle plane, degrees", ValueKind::number,
+                            Role::shape_part, set_angle, get_angle))};
 }
 
 Rows solid_rows() {
@@ -154,28 +158,28 @@ Rows solid_rows() {
   using C = CylinderSize;
   const Interval sides{3, most_sides};
   return {
-      part<&CubeSize::edge>("shape.cube.edge", "edge of a cube, d"),
-      part<&CuboidSize::length>("shape.cuboid.length", "first edge of a brick, d"),
-      part<&CuboidSize::width>("shape.cuboid.width", "second edge of a brick, d"),
-      part<&CuboidSize::height>("shape.cuboid.height", "third edge of a brick, d"),
-      part<&TetrahedronSize::height>(
+      length<&CubeSize::edge>("shape.cube.edge", "edge of a cube, d"),
+      length<&CuboidSize::length>("shape.cuboid.length", "first edge of a brick, d"),
+      length<&CuboidSize::width>("shape.cuboid.width", "second edge of a brick, d"),
+      length<&CuboidSize::height>("shape.cuboid.height", "third edge of a brick, d"),
+      length<&TetrahedronSize::height>(
           "shape.tetrahedron.height",
           "from a face to the opposite corner, d: 0.8165 times the edge"),
-      part<&OctahedronSize::height>("shape.octahedron.height",
-                                    "from a face to that opposite, d: 0.8165 times the edge"),
-      part<&DodecahedronSize::height>("shape.dodecahedron.height",
-                                      "from a face to that opposite, d: 2.2270 times the edge"),
-      part<&IcosahedronSize::height>("shape.icosahedron.height",
-                                     "from a face to that opposite, d: 1.5115 times the edge"),
+      length<&OctahedronSize::height>("shape.octahedron.height",
+                                      "from a face to that opposite, d: 0.8165 times the edge"),
+      length<&DodecahedronSize::height>("shape.dodecahedron.height",
+                                        "from a face to that opposite, d: 2.2270 times the edge"),
+      length<&IcosahedronSize::height>("shape.icosahedron.height",
+                                       "from a face to that opposite, d: 1.5115 times the edge"),
       part<&P::sides>("shape.prism.sides", "sides of the polygon below a prism", sides),
-      part<&P::height>("shape.prism.height", "height of a prism, d"),
-      part<&P::diameter>("shape.prism.diameter",
-                         "of the circle through the corners of its polygon, d"),
-      part<&C::height>("shape.cylinder.height", "height of a cylinder, d"),
-      part<&C::diameter>("shape.cylinder.diameter", "diameter of a cylinder, d"),
-      part<&C::chord_error>("shape.cylinder.chord_error",
-                            "from the cylinder to the middle of each side of the prism within it "
-                            "that is packed, d, at most"),
+      length<&P::height>("shape.prism.height", "height of a prism, d"),
+      length<&P::diameter>("shape.prism.diameter",
+                           "of the circle through the corners of its polygon, d"),
+      length<&C::height>("shape.cylinder.height", "height of a cylinder, d"),
+      length<&C::diameter>("shape.cylinder.diameter", "diameter of a cylinder, d"),
+      length<&C::chord_error>("shape.cylinder.chord_error",
+                              "from the cylinder to the middle of each side of the prism within it "
+                              "that is packed, d, at most"),
   };
 }
 

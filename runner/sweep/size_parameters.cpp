@@ -61,7 +61,7 @@ Parameter of_formula(const char* path, const Interval& range, const char* meanin
 
 template <class Formula, double Formula::*member>
 Parameter diameter_of_formula(const char* path, const char* meaning) {
-  Parameter parameter = of_formula<Formula, member>(path, positive, meaning);
+  Parameter parameter = in("d", of_formula<Formula, member>(path, positive, meaning));
   parameter.is_diameter = true;
   return parameter;
 }
@@ -80,6 +80,7 @@ Parameter of_table(const char* path, const Interval& range, const char* meaning)
       });
   parameter.most_items = most_size_rows;
   parameter.is_diameter = member == &SizeTable::diameters;
+  if (parameter.is_diameter) parameter.unit = "d";
   parameter.are_distinct = parameter.is_diameter;
   return parameter;
 }
@@ -106,16 +107,16 @@ Parameter table_file() {
 /// Where the curve is cut.
 template <std::optional<double> SizeDistribution::*member>
 Parameter cut_at(const char* path, const char* meaning) {
-  return own(
-      path, positive, meaning, ValueKind::number, Role::distribution,
-      [](ResolvedSpec& resolved, const Value& value) {
-        distribution_of(resolved).*member = std::get<double>(value);
-      },
-      [](const ResolvedSpec& resolved) {
-        const auto& distribution = resolved.spec.sizes.distribution;
-        const bool is_cut = distribution && (*distribution).*member;
-        return is_cut ? present(*((*distribution).*member)) : std::nullopt;
-      });
+  return in("d", own(
+                     path, positive, meaning, ValueKind::number, Role::distribution,
+                     [](ResolvedSpec& resolved, const Value& value) {
+                       distribution_of(resolved).*member = std::get<double>(value);
+                     },
+                     [](const ResolvedSpec& resolved) {
+                       const auto& distribution = resolved.spec.sizes.distribution;
+                       const bool is_cut = distribution && (*distribution).*member;
+                       return is_cut ? present(*((*distribution).*member)) : std::nullopt;
+                     }));
 }
 
 Parameter weight() {
@@ -180,8 +181,8 @@ std::vector<Parameter> size_parameters() {
           "sizes.spread", {0, 0.2}, "standard deviation of the diameter over its mean, each class"),
       share_of_classes<&SizesSpec::small_share>(
           "sizes.small_share", {0, 1}, "share of the small class in the solid volume, 0 to 1"),
-      of_classes<&SizesSpec::size_ratio>("sizes.size_ratio", {0.02, 1, true},
-                                         "mean diameter of the small class, d"),
+      in("d", of_classes<&SizesSpec::size_ratio>("sizes.size_ratio", {0.02, 1, true},
+                                                 "mean diameter of the small class, d")),
   };
   for (Parameter& parameter : formula_parameters()) all.push_back(std::move(parameter));
   for (Parameter& parameter : std::vector<Parameter>{
@@ -194,15 +195,15 @@ std::vector<Parameter> size_parameters() {
                                         "instead: share of the grains of just each diameter"),
            table_file(), weight(),
            cut_at<&SizeDistribution::smallest>("sizes.distribution.smallest",
-                                               "where the curve is cut below, in the unit of its "
-                                               "diameters; if left out, of lognormal "
-                                               "and weibull where 0.1 % are finer"),
+                                               "where the curve is cut below, d; if left out, of "
+                                               "lognormal and weibull where 0.1 % are finer"),
            cut_at<&SizeDistribution::largest>(
                "sizes.distribution.largest",
-               "where it is cut above, in the same unit; if left out, of those two where 0.1 % are "
-               "coarser"),
+               "where it is cut above, d; if left out, of those two where 0.1 % are coarser"),
            own("sizes.distribution.size", positive,
-               "the length in the diameters of the distribution that is d; 1 if left out",
+               "the length that is d in the unit in which the lengths of the distribution are "
+               "written; 1 "
+               "if left out. Tables have them in d",
                ValueKind::number, Role::distribution, set_member<&ResolvedSpec::size_unit>,
                no_identity)}) {
     all.push_back(std::move(parameter));

@@ -78,18 +78,43 @@ void note_varied(std::vector<Group>& groups) {
 
 bool is_of_shape(const std::string& path) { return path == "shape" || path.starts_with("shape."); }
 
+/// Its shape, of a mixture those of its components: what parts of shapes belong to.
+std::string shapes_of(const Group& group) {
+  const std::vector<std::string> components = component_names(group.job);
+  if (components.empty()) return group.job.shape;
+  std::string shapes;
+  for (const std::string& name : components) shapes += (shapes.empty() ? "" : " and ") + name;
+  return shapes;
+}
+
 /// Finds, among what is varied, what tells groups apart.
 void note_told(std::vector<Group>& groups) {
-  std::map<std::string, std::map<std::string, std::set<std::string>>> values;  // by shape and path
+  std::map<std::string, std::map<std::string, std::set<std::string>>> values;  // by shapes and path
+  std::set<std::string> shapes;
   for (const Group& group : groups) {
-    for (const auto& [path, value] : group.varied) values[group.job.shape][path].insert(value);
+    shapes.insert(shapes_of(group));
+    for (const auto& [path, value] : group.varied) values[shapes_of(group)][path].insert(value);
   }
   for (Group& group : groups) {
-    const auto& of_shape = values[group.job.shape];
+    const auto& of_shapes = values[shapes_of(group)];
     for (const auto& [path, value] : group.varied) {
-      if (!is_of_shape(path) || of_shape.at(path).size() > 1) group.told[path] = value;
+      const bool is_part = is_of_shape(path) && component_of_share(path) == 0;
+      if (!is_part || of_shapes.at(path).size() > 1) group.told[path] = value;
     }
-    if (values.size() > 1) group.told["shape"] = group.job.shape;
+    if (shapes.size() > 1) group.told["shape"] = shapes_of(group);
+  }
+}
+
+bool has_preset(const Group& group) { return group.job.accuracy != "custom"; }
+
+void note_presets(std::vector<Group>& groups) {
+  std::set<std::string> names;
+  for (const Group& group : groups) {
+    if (has_preset(group)) names.insert(group.job.accuracy);
+  }
+  const bool all_have_one = std::all_of(groups.begin(), groups.end(), has_preset);
+  for (Group& group : groups) {
+    group.is_told_by_preset = has_preset(group) && (all_have_one || names.size() > 1);
   }
 }
 
@@ -255,6 +280,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   }
   note_varied(groups);
   note_told(groups);
+  note_presets(groups);
   moderate_errors(groups);
   return groups;
 }
@@ -288,7 +314,8 @@ Columns<Group> varied_columns(const Varied& varied) {
   Columns<Group> columns;
   for (const std::string& path : varied) {
     const auto known = find_parameter(path);
-    columns.push_back({path, "", known ? parameters()[*known].meaning : "of the sweep",
+    columns.push_back({path, known ? parameters()[*known].unit : "",
+                       known ? parameters()[*known].meaning : "of the sweep",
                        [path](const Group& group) { return group.varied.at(path); }});
   }
   return columns;

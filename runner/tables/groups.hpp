@@ -71,10 +71,14 @@ struct Group {
   std::string family_name;  ///< as Family::name, once families are known
   /// Dotted name -> cell of the parameters that are not the same in all groups.
   std::map<std::string, std::string> varied;
-  /// The same as people tell groups apart: where their shapes differ, the name of the shape stands
-  /// under "shape", and parameters of shapes are left out unless they also differ among groups of
-  /// the same shape.
+  /// The same as people tell groups apart: where their shapes differ, the name of the shape, of a
+  /// mixture those of its components, stands under "shape", and parameters of shapes, but for the
+  /// shares of a mixture, are left out unless they also differ among groups of the same shape or
+  /// components.
   std::map<std::string, std::string> told;
+  /// Whether the name of its preset stands for the parts of its accuracy: presets vary, or all
+  /// groups have one. Where parts of a preset are swept, a value that is its own is one of them.
+  bool is_told_by_preset = false;
   std::optional<ProtocolBias> bias_bound;  ///< of phi and Z, by the way of settling
   double slab_volume = 0.0;   ///< mean of the settled packings, d^3; NaN if there are none
   std::vector<Spread> means;  ///< of the fields that have one, in the order of the field table

@@ -92,6 +92,47 @@ TEST_CASE("a sweep over something else has that along the axis", "[report]") {
   CHECK(place_on(axes, *axes.series[0].groups[0]) == 0.0);
 }
 
+Row creep_row(const std::string& id, const std::string& preset, int creep_steps) {
+  Row row = row_at(id, 6, 0.0);
+  row.job.accuracy = preset;
+  row.job.parameters =
+      R"({"accuracy":{"creep_steps":)" + std::to_string(creep_steps) + R"(},"shape":"sphere"})";
+  return row;
+}
+
+TEST_CASE("a part of the accuracy goes along the axis, also through the value of its preset",
+          "[report]") {
+  const std::vector<Row> rows = {creep_row("a", "custom", 120), creep_row("b", "fast", 240),
+                                 creep_row("c", "custom", 480)};
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "accuracy.creep_steps");
+  CHECK(axes.title == "creep steps");
+  REQUIRE(axes.series.size() == 1);
+  CHECK(axes.series[0].name == "MSP");
+  CHECK(place_on(axes, groups[1]) == 240.0);
+}
+
+TEST_CASE("presets are told by their names where they vary", "[report]") {
+  const std::vector<Row> rows = {creep_row("a", "fast", 240), creep_row("b", "balanced", 480),
+                                 creep_row("c", "custom", 960)};
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(axes_of(groups).parameter.empty());
+  CHECK(title_of(groups[1]) == "MSP, accuracy = balanced");
+  CHECK(title_of(groups[2]) == "MSP, creep_steps = 960");
+}
+
+TEST_CASE("axes have words and a unit", "[report]") {
+  CHECK(axis_title("box.width") == "gap between the walls, W / d");
+  CHECK(axis_title("box.length") == "box length / d");
+  CHECK(axis_title("sizes.size_ratio") == "size ratio / d");
+  CHECK(axis_title("sizes.distribution.lognormal.sigma") == "lognormal sigma");
+  CHECK(axis_title("shape.pinacoid.angle_deg") == "pinacoid angle / degrees");
+  CHECK(axis_title("shape.prism.sides") == "prism sides");
+  CHECK(axis_title("accuracy.step") == "step / sqrt(d/g)");
+  CHECK(axis_title("fill.grains") == "grains");
+}
+
 TEST_CASE("a sweep that varies nothing has the number of the group along the axis", "[report]") {
   const std::vector<Row> rows = {row_at("a", 6, 0.0)};
   const std::vector<Group> groups = groups_of(rows);
@@ -165,6 +206,23 @@ TEST_CASE("of mixtures of two components the share of one goes along the axis, i
   REQUIRE(axes.series.size() == 1);
   CHECK(place_on(axes, *axes.series[0].groups[2]) == 0.75);
   CHECK(title_of(groups[0]) == "MSP, cube 0.25, sphere 0.75");
+}
+
+TEST_CASE("mixtures of other components are a series of their own, told by their shares",
+          "[report]") {
+  std::vector<Row> rows;
+  for (const double cubes : {0.25, 0.5}) {
+    rows.push_back(mixture_row(std::to_string(cubes), 5));
+    rows.back().job.parameters = sample_mixture(5, cubes);
+  }
+  rows.push_back(mixture_row("prisms", 5));
+  rows.back().job.label = "rods";
+  rows.back().job.parameters =
+      R"({"box":{"width":5},"shape":{"mixture":{"1":{"prism":{"height":2,"sides":5},"share":0.5},)"
+      R"("2":{"sphere":{},"share":0.5}},"mixture_by":"volume"}})";
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(axes_of(groups).series.size() == 2);
+  CHECK(title_of(groups[2]) == "rods, prism 0.5, sphere 0.5");
 }
 
 TEST_CASE("points of a random design are joined where some lack what others vary", "[report]") {
