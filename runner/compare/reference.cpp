@@ -86,7 +86,7 @@ std::optional<Published::Range> read_range(const Json& value, const PublishedErr
     return std::nullopt;
   }
   Published::Range range{is_range ? value[0] : value, is_range ? value[1] : value, 0.0};
-  range.error = error.of((range.low + range.high) / 2.0);
+  range.error = without_noise(error.of((range.low + range.high) / 2.0));
   if (range.low <= range.high) return range;
   diagnostics.push_back({pointer, "a range must be [low, high], is " + value.dump()});
   return std::nullopt;
@@ -99,7 +99,7 @@ std::string text_of(const Published& published) {
         (formula.name == formula.text ? "" : formula.name + ": ") + formula.text;
     if (formula.error.own > 0.0) return text + " ± " + cell(formula.error.own);
     return text + (formula.error.relative > 0.0
-                       ? " ± " + cell(100.0 * formula.error.relative) + " %"
+                       ? " ± " + short_cell(100.0 * formula.error.relative) + " %"
                        : "");
   }
   const auto& range = published.range;

@@ -13,15 +13,17 @@ std::string cell(double value) {
   return {text.data(), end};
 }
 
-std::string short_cell(double value, int digits) {
-  if (!std::isfinite(value)) return "";
+double without_noise(double value, int digits) {
+  if (!std::isfinite(value)) return value;
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
                                  std::chars_format::scientific, digits - 1)
                        .ptr;
   std::from_chars(text.data(), end, value);
-  return cell(value);
+  return value;
 }
+
+std::string short_cell(double value, int digits) { return cell(without_noise(value, digits)); }
 
 std::string cell(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);

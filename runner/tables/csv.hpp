@@ -16,7 +16,11 @@ inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 /// number says that there is none.
 std::string cell(double value);
 
-/// The same to so many significant digits, without the noise of the last bits: 0.6 of 6 times 0.1.
+/// The number to so many significant digits, without the noise of the last bits: 0.6 of 6 times
+/// 0.1.
+double without_noise(double value, int digits = 12);
+
+/// The cell of that.
 std::string short_cell(double value, int digits = 12);
 
 /// Decimal digits.

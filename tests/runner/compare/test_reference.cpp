@@ -35,6 +35,10 @@ TEST_CASE("values, ranges, errors and words are read and printed as they were pu
   const Published relative =
       value_of(R"("quantity": "Z_unconfined", "value": [4, 6], "relative_error": 0.02)");
   CHECK(relative.range->error == 0.1);
+  const Published product =
+      value_of(R"("quantity": "Z", "width": 8, "value": 7, "relative_error": 0.1)");
+  CHECK(product.range->error == 0.7);  // not 0.7000000000000001
+  CHECK(product.text == "7 ± 0.7");
   const Published reach =
       value_of(R"("quantity": "reach", "width": 10, "value": [3, 4], "definition": "by eye")");
   CHECK(reach.range->low == 3);
@@ -199,6 +203,7 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(relative.text == "1/W ± 5 %");
   CHECK(relative.formula->error.relative == 0.05);
   CHECK(relative.formula->error.own == 0.0);
+  CHECK(read(R"("formula": "1/W", "relative_error": 0.07)").text == "1/W ± 7 %");
   CHECK(read(R"("formula": "W", "text": "two\nlines")").formula->name == "two lines");
   CHECK(read(R"("formula": "W", "text": "")").text == "W");
 }
