@@ -33,6 +33,17 @@ std::string signed_text(double difference) {
   return (rounded > 0.0 ? "+" : "") + fixed(rounded, 4);
 }
 
+/// "0.8"; with more decimals where values that differ would seem to lie at the limit: "3.04".
+std::string errors_text(double errors) {
+  constexpr int most_decimals = 6;
+  std::string text = fixed(errors, 1);
+  for (int decimals = 2; decimals <= most_decimals && errors > agreement_limit; ++decimals) {
+    if (std::stod(text) > agreement_limit) break;
+    text = fixed(errors, decimals);
+  }
+  return text;
+}
+
 std::string difference_text(const Comparison& at, const std::string& symbol) {
   return signed_text(*difference(at)) + " at " + symbol + " = " + cell(at.published.width) + " d";
 }
@@ -171,7 +182,7 @@ std::string verdict(const Comparison& comparison) {
          (is_by_bound ? " within the bound of settling, " + cell(comparison.measured.bias_bound)
                       : "") +
          ": " + sign + fixed(*miss, decimals_for(comparison.measured.estimate.error)) + ", " +
-         fixed(std::abs(*errors), 1) + " errors";
+         errors_text(std::abs(*errors)) + " errors";
 }
 
 namespace {

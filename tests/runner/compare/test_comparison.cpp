@@ -58,6 +58,9 @@ TEST_CASE("published errors and ours are added in quadrature, for the verdict, t
   CHECK(verdict(row) == "agrees: +0.50, 1.0 errors");
   CHECK(verdict(comparison_of({6, 6, 0}, {4.5, 0.4})) == "differs: -1.50, 3.8 errors");
   CHECK(verdict(comparison_of({6, 6, 0.3}, {4.5, 0.4})) == "agrees: -1.50, 3.0 errors");
+  CHECK(verdict(comparison_of({6, 6, 0.25}, {6.503, 0})) == "agrees: +0.503, 2.0 errors");
+  CHECK(verdict(comparison_of({6, 6, 0.25}, {6.76, 0})) == "differs: +0.760, 3.04 errors");
+  CHECK(verdict(comparison_of({6, 6, 0.25}, {6.751, 0})) == "differs: +0.751, 3.004 errors");
   CHECK(verdict(comparison_of({6, 6, 0}, {4.5, 0})) == "-");
   CHECK(verdict({}) == "-");
 }
