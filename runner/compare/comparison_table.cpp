@@ -97,8 +97,11 @@ Columns<Comparison> measured_columns() {
        [](Line line) { return cell(line.measured.not_determined); }},
       {"published_definition", "", "what the source says of its value",
        [](Line line) { return cell(line.published.definition); }},
-      {"measured_definition", "", "how the value here is measured",
-       [](Line line) { return cell(line.measured.definition); }},
+      {"measured_definition", "", "how the value here is measured; empty if there is none",
+       [](Line line) {
+         const Measured& measured = line.measured;
+         return cell(measured.not_determined.empty() ? measured.definition : std::string());
+       }},
   };
 }
 

@@ -93,7 +93,8 @@ TEST_CASE("what is not known is empty, and its reason is given") {
   CHECK(rows[0]["published"] == "falls");
   CHECK(rows[0]["measured"] == "5.5");
   CHECK(rows[0]["chi2_per_dof"] == "1.5");
-  for (const char* column : {"measured", "measured_error", "bias_bound", "difference"}) {
+  for (const char* column :
+       {"measured", "measured_error", "bias_bound", "difference", "measured_definition"}) {
     INFO(column);
     CHECK(rows[1][column].empty());
   }
