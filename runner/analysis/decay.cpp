@@ -363,6 +363,13 @@ std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima
 
 }  // namespace
 
+std::string why_no_reach(const DecayFit& fit) {
+  if (!fit.not_determined.empty() || fit.reach.value <= fit.window_end) return fit.not_determined;
+  return "the curve falls to " + number_text(100.0 * decay_reach_share) +
+         " % of the bulk only beyond the middle, " + number_text(fit.window_end) +
+         " d from the wall, where the fit ends";
+}
+
 DecayFit fit_decay(const std::vector<std::vector<double>>& profiles, double bin_width,
                    double window_end) {
   DecayFit fit;

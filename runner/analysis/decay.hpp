@@ -45,12 +45,18 @@ struct DecayFit {
   Estimate length;             ///< lambda, d
   Estimate period;             ///< d
   Estimate phase;              ///< rad
-  Estimate reach;              ///< where the amplitude has fallen to decay_reach_share of bulk, d
-  double r_squared = 0.0;      ///< share of the mean profile's variance that the curve explains
-  double misfit = 0.0;         ///< root mean square of residuals over that of the mean's errors
-  double window_end = 0.0;     ///< d from the wall
-  int bins = 0;                ///< in the window
+  /// Where the amplitude has fallen to decay_reach_share of bulk, d; may be extrapolated, see
+  /// why_no_reach.
+  Estimate reach;
+  double r_squared = 0.0;   ///< share of the mean profile's variance that the curve explains
+  double misfit = 0.0;      ///< root mean square of residuals over that of the mean's errors
+  double window_end = 0.0;  ///< d from the wall
+  int bins = 0;             ///< in the window
 };
+
+/// Why the reach has no value: the curve has none, or falls to decay_reach_share of bulk only
+/// beyond the window, where nothing was measured of it; empty if it has one.
+std::string why_no_reach(const DecayFit& fit);
 
 /// Fits the mean of `profiles`, solid fractions in bins from the wall inwards, over the bins whose
 /// centres lie between decay_window_start and `window_end`. There must be two profiles or more,

@@ -92,6 +92,11 @@ std::string walls_text(const Group& group) {
   return group.job.box.is_tube ? "the wall" : "both walls";
 }
 
+/// How well the damped cosine describes the layers.
+std::string quality_text(const DecayFit& fit) {
+  return "R² " + fixed(fit.r_squared, 3) + ", misfit " + fixed(fit.misfit, 1);
+}
+
 /// lambda_L over one of the two mean diameters.
 template <double PackingResult::*mean_diameter>
 Measured decay_length(const Family& /*family*/, const Group& group) {
@@ -101,15 +106,15 @@ Measured decay_length(const Family& /*family*/, const Group& group) {
           fit.not_determined,
           "damped cosine through the large grains' φ(y), y = " + cell(decay_window_start) +
               " d to " + cell(fit.window_end) + " d from " + walls_text(group) +
-              "; d_avg = " + fixed(diameter, 3) + " d, R² " + fixed(fit.r_squared, 3) +
-              ", misfit " + fixed(fit.misfit, 1)};
+              "; d_avg = " + fixed(diameter, 3) + " d, " + quality_text(fit)};
 }
 
 Measured reach(const Family& /*family*/, const Group& group) {
   const DecayFit fit = decay_of(group, GrainClass::large);
-  return {fit.reach, fit.not_determined,
-          "where that oscillation has fallen to " + cell(100.0 * decay_reach_share) +
-              " % of the bulk solid fraction of large grains"};
+  return {fit.reach, why_no_reach(fit),
+          "where the damped cosine through the large grains' φ(y) has fallen to " +
+              cell(100.0 * decay_reach_share) + " % of their bulk solid fraction; " +
+              quality_text(fit)};
 }
 
 Measured decay_over_slope(const Family& family, const Group& group) {
@@ -120,7 +125,7 @@ Measured decay_over_slope(const Family& family, const Group& group) {
                                                     phi.slope.error / phi.slope.value);
   return {{ratio, error},
           decay.not_determined.empty() ? phi.not_determined : decay.not_determined,
-          "decay length of the large grains' φ(y) over the slope C of φ"};
+          "decay length of the large grains' φ(y) over the slope C of φ; " + quality_text(decay)};
 }
 
 Measured zone_drop(const Family& /*family*/, const Group& group) {

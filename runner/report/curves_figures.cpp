@@ -150,8 +150,8 @@ std::string small_share_csv(const std::vector<WallReach>& reaches) {
     std::vector<std::string> cells = {cell(mark + 1), cell(share)};
     for (const auto& [value, error] :
          {estimate_cells(phi.slope, phi.not_determined), estimate_cells(z.slope, z.not_determined),
-          estimate_cells(large.reach, large.not_determined),
-          estimate_cells(small.reach, small.not_determined)})
+          estimate_cells(large.reach, why_no_reach(large)),
+          estimate_cells(small.reach, why_no_reach(small))})
       cells.insert(cells.end(), {value, error});
     cells.push_back(cell(family->name));
     text += csv_line(cells);
@@ -313,12 +313,12 @@ Figure small_share_figure(const std::vector<Family>& families, const std::string
     const Estimate& slope = reach.phi.slope;
     if (reach.phi.not_determined.empty()) slopes.push_back({slope.value, slope.error});
     for (const DecayFit* fit : {&reach.large, &reach.small}) {
-      if (fit->not_determined.empty()) lengths.push_back({fit->reach.value, fit->reach.error});
+      if (why_no_reach(*fit).empty()) lengths.push_back({fit->reach.value, fit->reach.error});
     }
   }
   figure.caption += bars_text({slopes, lengths}) +
                     ". A family whose value is not determined has no point; fits.csv and "
-                    "decays.csv say why.";
+                    "decays.csv say why. Nor has a reach beyond the middle of the gap.";
   if (marks > 1) {
     figure.caption += " Families of one share have different marks, in the order of " + table + ".";
   }

@@ -155,8 +155,10 @@ std::string curve_text(const std::set<BinsAcross>& bins) {
 
 std::string decay_text(const DecayFit& fit, const GivenUnits& units) {
   if (!fit.not_determined.empty()) return "no curve, " + with_signs(fit.not_determined);
+  const bool is_within = why_no_reach(fit).empty();
   return "λ = " + length_text(fit.length.value, fit.length.error, 2, units) + ", reach " +
-         length_text(fit.reach.value, fit.reach.error, 1, units) +
+         (is_within ? length_text(fit.reach.value, fit.reach.error, 1, units)
+                    : "beyond the middle") +
          (fit.misfit > largest_misfit
               ? ", but the damped cosine does not hold: its misfit is " + fixed(fit.misfit, 1)
               : "");

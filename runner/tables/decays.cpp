@@ -83,8 +83,16 @@ Columns<DecayLine> decay_line_columns(const Varied& varied, const GivenUnits& un
   add("amplitude", "", "of the oscillation, extrapolated to the wall", &DecayFit::amplitude);
   add("period", "d", "of the oscillation", &DecayFit::period);
   add("phase", "rad", "of the oscillation at the wall", &DecayFit::phase);
-  add("reach", "d", "where the amplitude has fallen to 5 % of bulk, of these grains alone",
-      &DecayFit::reach);
+  const auto reach_cell = [](double Estimate::*part) {
+    return [=](const DecayLine& line) {
+      return cell(why_no_reach(line.fit).empty() ? line.fit.reach.*part : no_number);
+    };
+  };
+  columns.push_back({"reach", "d",
+                     "where the amplitude has fallen to 5 % of bulk, of these grains alone; empty "
+                     "if that is beyond window_end",
+                     reach_cell(&Estimate::value)});
+  columns.push_back({"reach_error", "d", "standard error of it", reach_cell(&Estimate::error)});
   columns.push_back({"r_squared", "",
                      "share of the mean profile's variance that the curve explains",
                      fit_cell(&DecayFit::r_squared)});

@@ -249,6 +249,19 @@ TEST_CASE("layers that are weak at the wall reach nowhere") {
   CHECK(fit.reach.value == 0.0);
 }
 
+TEST_CASE("layers that are strong up to the middle have no reach, but a length") {
+  const auto strong = profile_of({0.62, 0.4, 1.8, 0.9, 0.4}, 3);
+  const DecayFit fit = fit_decay({strong, strong}, bin_width, 3);
+  REQUIRE(fit.not_determined.empty());
+  CHECK(fit.length.value == Approx(1.8));
+  CHECK(why_no_reach(fit) ==
+        "the curve falls to 5 % of the bulk only beyond the middle, 3 d from the wall, where the "
+        "fit ends");
+  const auto farther = profile_of({0.62, 0.4, 1.8, 0.9, 0.4}, 5);  // 4.6 d
+  CHECK(why_no_reach(fit_decay({farther, farther}, bin_width, 5)).empty());
+  CHECK_THAT(why_no_reach(fit_decay({strong, strong}, bin_width, 1)), Catch::Contains("bins of"));
+}
+
 TEST_CASE("a period longer than the window is not determined") {
   std::mt19937_64 generator(31);
   const auto profiles = noisy_profiles({0.6, 0.2, 2, 3, 0}, 6, 0.0005, generator);

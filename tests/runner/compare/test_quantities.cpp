@@ -44,6 +44,9 @@ TEST_CASE("every quantity of a whole sweep has the value that was planted") {
   CHECK(value("lambda_by_volume", 10) == Approx(1.4 / 0.8).epsilon(0.05));
   CHECK(value("lambda_over_C", 10) == Approx(7.0).epsilon(0.05));
   CHECK(value("reach", 10) == Approx(1.4 * std::log(0.3 / (0.05 * 0.6))).epsilon(0.05));
+  for (const char* quantity : {"reach", "lambda_by_number", "lambda_over_C"}) {
+    CHECK_THAT(measure_quantity(quantity, 10, family).definition, Catch::Contains(", misfit "));
+  }
   CHECK(value("Z_drop", 10) == Approx(1.4));
   CHECK(value("Z_drop_width", 10) == Approx(1.0));
 }
@@ -169,6 +172,15 @@ TEST_CASE("what a sweep lacks is not determined, with the reason") {
   CHECK_THAT(reason("zeta_difference"), Catch::Contains("3 or more widths"));
   CHECK_THAT(reason("lambda_by_number", 5), Catch::Contains("2 or more settled replicates"));
   CHECK_THAT(reason("Z_drop", 5), Catch::Contains("9 d or more"));
+}
+
+// 3.2 d: where layers of two walls 5 d apart overlap.
+TEST_CASE("a reach beyond the middle is not determined, although its decay length is") {
+  const std::vector<Row> rows = wall_sweep();
+  const Family family = families_in(rows).at(0);
+  CHECK(measure_quantity("lambda_by_number", 5, family).not_determined.empty());
+  CHECK_THAT(measure_quantity("reach", 5, family).not_determined,
+             Catch::Contains("only beyond the middle, 2.5 d from the wall"));
 }
 
 TEST_CASE("unknown quantities and widths that do not belong are told") {

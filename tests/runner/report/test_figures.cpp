@@ -362,6 +362,20 @@ TEST_CASE("beside a decay length stands where a damped cosine does not describe 
                  Catch::Contains("d, but the damped cosine does not hold: its misfit is "));
 }
 
+TEST_CASE("a reach beyond the middle is told as such and has no point", "[report]") {
+  std::vector<Row> rows = layered_rows(0.0);  // 2.8 d
+  for (Row& row : rows) {
+    std::vector<ProfileBin>& bins = row.outcome->result.profile_y.bins;
+    bins.erase(bins.begin() + 25, bins.end() - 25);
+    row.job.box.width = 5.0;
+  }
+  CHECK_THAT(figure_called(figures_of(rows, analyse(rows), {}), "profiles").caption,
+             Catch::Contains(" d, reach beyond the middle."));
+  rows.push_back(settled_row("s", 5.0, 0.6, 6.0, Boundary::walls, 0.25));
+  const Figure shares = figure_called(figures_of(rows, analyse(rows), {}), "small_grains");
+  CHECK(cell_in(shares.tables.at(0).second, 1, "reach_large").empty());
+}
+
 TEST_CASE("the key of the layers has what is drawn", "[report]") {
   const auto profiles_of = [](const std::vector<Row>& rows) {
     return figure_called(figures_of(rows, analyse(rows), {}), "profiles");

@@ -124,5 +124,18 @@ TEST_CASE("the table has two rows a group and no numbers where nothing is determ
                              "grains,2,0.25,5,0,,,,,,,,,,,,,,\n"));
 }
 
+TEST_CASE("a reach beyond the middle is no number of the table") {
+  std::vector<Row> rows = {layered_row("a", 1), layered_row("b", 2)};  // 2.8 d
+  for (Row& row : rows) {
+    std::vector<ProfileBin>& bins = row.outcome->result.profile_y.bins;
+    bins.erase(bins.begin() + 25, bins.end() - 25);
+    row.job.box.width = 5.0;
+  }
+  const std::string text = decays_csv(analyse(rows).groups);
+  const std::string line = text.substr(text.find(",large,determined,"));
+  CHECK(std::count(line.begin(), line.begin() + line.find('\n'), ',') == 21);
+  CHECK_THAT(line.substr(0, line.find('\n')), Catch::Matches(".*[0-9],,,0\\.[0-9]*,[0-9.]*"));
+}
+
 }  // namespace
 }  // namespace grainsweep
