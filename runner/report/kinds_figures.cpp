@@ -112,7 +112,7 @@ std::vector<const Comparison*> measured_of(const std::vector<Comparison>& compar
 
 /// Wide enough for all of them and for the band in which both sides agree.
 Range shown_errors(const std::vector<const Comparison*>& measured) {
-  constexpr double room = 1.3;  // a factor, for far from 0 the scale is logarithmic
+  constexpr double room = 1.3;  // a factor, for far from 0 the scale may be logarithmic
   Range shown{-1.5 * agreement_limit, 1.5 * agreement_limit};
   for (const Comparison* one : measured) {
     const double errors = *difference_in_errors(*one);
@@ -120,6 +120,12 @@ Range shown_errors(const std::vector<const Comparison*>& measured) {
     shown.high = std::max(shown.high, room * errors);
   }
   return shown;
+}
+
+/// Whether no value lies so far off that it would press those that agree into a line of the axis.
+bool is_linear(const Range& shown) {
+  constexpr double most = 20.0;  // errors to either side
+  return std::max(-shown.low, shown.high) <= most;
 }
 
 /// 0, and 1, 3, 10, 30 ... to both sides.
@@ -166,10 +172,9 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
   Figure figure{.name = "published",
                 .title = "Beside published values",
                 .caption =
-                    "Measured less published value, in standard errors of both, far from 0 on a "
-                    "logarithmic scale. Within the shaded band both agree, beyond it also where "
-                    "they differ by no more than the bound of settling. The table below has "
-                    "values and definitions."};
+                    "Measured less published value, in standard errors of both. Within the shaded "
+                    "band both agree, beyond it also where they differ by no more than the bound "
+                    "of settling. The table below has values and definitions."};
   std::vector<const Comparison*> measured = measured_of(comparisons);
   if (measured.empty()) {
     return undrawn(std::move(figure),
@@ -205,12 +210,13 @@ Figure published_figure(const std::vector<Comparison>& comparisons) {
       "\nset rmargin at screen 0.96\n"
       "unset key\nset yrange [" +
       cell(rows) + ".6:0.4]\nset ytics noenhanced (" + tics + ")\nset object 1 rectangle from -" +
-      limit + ", graph 0 to " + limit +
-      ", graph 1 fc rgb '#e8f1f8' fs solid noborder behind\n"
-      "set nonlinear x via asinh(x) inverse sinh(x)\n" +
-      range_command("x", shown) + "set xtics (" + tics_of_errors(shown) + ")\n" +
+      limit + ", graph 0 to " + limit + ", graph 1 fc rgb '#e8f1f8' fs solid noborder behind\n" +
+      (is_linear(shown) ? "" : "set nonlinear x via asinh(x) inverse sinh(x)\n") +
+      range_command("x", shown) +
+      (is_linear(shown) ? "" : "set xtics (" + tics_of_errors(shown) + ")\n") +
       "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\n" +
-      label_command("x", "measured less published, standard errors") +
+      label_command("x", std::string("measured less published, standard errors") +
+                             (is_linear(shown) ? "" : " (logarithmic far from 0)")) +
       plot_command(
           {plot_part({"published.csv", "all", 1, "errors", "row", "", "points ls 1 ps 1"})});
   return figure;

@@ -552,9 +552,13 @@ TEST_CASE("however far a published value is, it is on the axis", "[report]") {
   Comparison below, above;
   below.published.range = {6.0, 6.0, 0.0}, above.published.range = {1.0, 1.0, 0.0};
   below.measured.estimate = {5.0, 0.1}, above.measured.estimate = {2.0, 0.01};
-  CHECK_THAT(published_figure({below, above}).commands, Catch::Contains("set xrange [-13:130]") &&
-                                                            Catch::Contains("-10, 30") &&
-                                                            Catch::Contains(", 100)"));
+  CHECK_THAT(published_figure({below, above}).commands,
+             Catch::Contains("set xrange [-13:130]") && Catch::Contains("-10, 30") &&
+                 Catch::Contains(", 100)") &&
+                 Catch::Contains("standard errors (logarithmic far from 0)'"));
+  CHECK_THAT(published_figure({below}).commands,
+             Catch::Contains("set xrange [-13:4.5]") && !Catch::Contains("nonlinear") &&
+                 !Catch::Contains("logarithmic") && !Catch::Contains("set xtics ("));
 }
 
 TEST_CASE("of very many packings the figure of what they cost draws some, and says so",
