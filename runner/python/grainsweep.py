@@ -231,7 +231,8 @@ class Bed:
         program = os.environ.get("GRAINSWEEP", "grainsweep")
         with tempfile.TemporaryDirectory() as to:
             subprocess.run(
-                [program, "export", self._folder, "--job", self.job, "--format", "contacts", "--to", to],
+                [program, "export", self._folder, "--job", self.job, "--format", "contacts", "--quiet",
+                 "--to", to],
                 check=True, stdout=subprocess.DEVNULL)
             (file,) = pathlib.Path(to).glob("*.contacts.csv")
             contacts = _table(file.read_text(encoding="utf-8"))

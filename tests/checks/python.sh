@@ -118,6 +118,12 @@ for row in s.packings.itertuples():
 print(f"python: {len(s.packings)} beds counted anew, {len(s.tables)} tables")
 PYTHON
 
+# Contacts come without a word of the program that finds them.
+/usr/bin/python3 -c 'import grainsweep
+s = grainsweep.open("out/quick")
+s.bed(s.packings["job"][0]).contacts' 2>told.txt
+[ ! -s told.txt ] || { printf 'python: contacts tell %s\n' "$(cat told.txt)" >&2 && exit 1; }
+
 # Torn and damaged lines of journals count for nothing, nor do exceptions after a result; of whole
 # lines the later one counts, whatever the clock said, and of two journals the packing finished
 # later.
