@@ -214,6 +214,9 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
 
 constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
 
+constexpr const char *of_one_size = "the mean diameter of the grains",
+                     *of_large_grains = "the mean diameter of the large grains";
+
 /// What d is in a packing: a length of the user's choice where sizes are a distribution or come
 /// from a file.
 std::string unit_of(const JobFacts& job) {
@@ -224,14 +227,14 @@ std::string unit_of(const JobFacts& job) {
   if (has_own_unit) return "the length chosen as 1 for sizes";
   if (job.shape == "hull") return "the length of a hull that is its \"size\"";
   if (job.shape != "sphere") return "the unit in which shapes are written";
-  return job.small_share == 0.0 ? "the mean diameter of the grains"
-                                : "the mean diameter of the large grains";
+  return job.small_share == 0.0 ? of_one_size : of_large_grains;
 }
 
 /// What d is in the packings of a sweep, which may differ in it.
 std::string unit_meaning(const std::vector<Row>& rows) {
   std::set<std::string> meanings;
   for (const Row& row : rows) meanings.insert(unit_of(row.job));
+  if (meanings.contains(of_large_grains)) meanings.erase(of_one_size);  // they are all large
   std::string text;
   for (const std::string& meaning : meanings) text += (text.empty() ? ", " : ", or ") + meaning;
   return text;
@@ -243,18 +246,20 @@ std::string definitions_text(const std::vector<Row>& rows) {
   };
   const bool has_tubes =
       std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.job.box.is_tube; });
-  return "\nLengths in d" + unit_meaning(rows) + ". φ: exact solid volume between " +
-         distinct(rows, [](const MeasureSpec& m) { return m.exclude_floor; }) +
-         " d above\nthe floor and " +
-         distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
-         " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
-         " d, walls not\ncounted. ±: standard error, wider where few packings tell it; what single "
-         "packings scatter by is in\ngroups.csv. contacts/iso: force-bearing contacts over the "
-         "isostatic count, 1 at perfect rest.\n" +
-         (has_tubes ? "In narrow tubes it is less, as a round wall holds grains along it, too, or "
-                      "more, where equal\ngrains order.\n"
-                    : "") +
-         "Only settled packings enter means and fits.\n";
+  constexpr std::size_t line_width = 100;  // characters
+  const std::string text =
+      "Lengths in d" + unit_meaning(rows) + ". φ: exact solid volume between " +
+      distinct(rows, [](const MeasureSpec& m) { return m.exclude_floor; }) +
+      " d above the floor and " +
+      distinct(rows, [](const MeasureSpec& m) { return m.exclude_surface; }) +
+      " d below the surface. Z: neighbours per grain there with gap < " + distinct(rows, gap) +
+      " d, walls not counted. ±: standard error, wider where few packings tell it; what single "
+      "packings scatter by is in groups.csv. contacts/iso: force-bearing contacts over the "
+      "isostatic count, 1 at perfect rest." +
+      (has_tubes ? " In narrow tubes it is less, as a round wall holds grains along it, too, or "
+                   "more, where equal grains order."
+                 : "");
+  return "\n" + filled_lines(text, line_width) + "\nOnly settled packings enter means and fits.\n";
 }
 
 /// How far the means lie at most from those of beds settled ever better.

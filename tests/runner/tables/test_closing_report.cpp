@@ -78,13 +78,13 @@ TEST_CASE("the closing report as a whole") {
       "      C_Z = 3.00 ± 0.15 d,  ζ = C_Z/Z_bulk = 0.492 ± 0.022 d  (χ²/dof 0.00, R² 1.000, 3 "
       "widths)\n"
       "\n"
-      "Lengths in d, the mean diameter of the grains. φ: exact solid volume between 3 d above\n"
-      "the floor and 3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, "
-      "walls not\n"
-      "counted. ±: standard error, wider where few packings tell it; what single packings scatter "
-      "by is in\n"
-      "groups.csv. contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect "
-      "rest.\n"
+      "Lengths in d, the mean diameter of the grains. φ: exact solid volume between 3 d above the "
+      "floor and\n"
+      "3 d below the surface. Z: neighbours per grain there with gap < 1e-04 d, walls not counted. "
+      "±:\n"
+      "standard error, wider where few packings tell it; what single packings scatter by is in "
+      "groups.csv.\n"
+      "contacts/iso: force-bearing contacts over the isostatic count, 1 at perfect rest.\n"
       "Only settled packings enter means and fits.\n"
       "Protocol: means of beds settled ever better lie within 0.0020 (φ) and 0.048 (Z).\n"
       "\n"
@@ -170,6 +170,9 @@ TEST_CASE("d is called what it is: a diameter, the unit of shapes or one chosen 
   row.job.small_share = 0.25;
   CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
              Catch::Contains("Lengths in d, the mean diameter of the large grains."));
+  CHECK_THAT(report_of(reported_provenance(), {row, settled_row("b", 6, 0.6, 6)}, "out"),
+             Catch::Contains("Lengths in d, the mean diameter of the large grains. φ: exact solid "
+                             "volume between 3 d above the\nfloor"));
   row.job.shape = "cube";
   CHECK_THAT(report_of(reported_provenance(), {row}, "out"),
              Catch::Contains("Lengths in d, the unit in which shapes are written."));
