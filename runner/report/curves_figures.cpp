@@ -17,7 +17,7 @@ namespace grainsweep {
 namespace {
 
 constexpr std::size_t most_curves = 6;
-constexpr double farthest = 4.0;  ///< d, to which g is drawn
+constexpr double farthest = 4.0;  ///< d, to which g is drawn at most
 constexpr int bins_to_mark = 4;   ///< from mark to mark along g, whose bins are many
 
 constexpr std::size_t most_bars = 100;  // of a curve over the height
@@ -83,6 +83,15 @@ std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Cur
     for (const CurvePoint& point : mean_curve(*group, curve)) values.push_back(point.value.mean);
   }
   return values;
+}
+
+/// How far the pair correlation of a group is known, d.
+double known_to(const Group& group) {
+  double end = 0.0;
+  for (const CurvePoint& point : mean_curve(group, &Order::pair_correlation)) {
+    if (std::isfinite(point.value.mean)) end = std::max(end, point.high);
+  }
+  return end;
 }
 
 /// Ranges of both axes of the densities of forces: to the largest force, and all densities but 0.
@@ -225,6 +234,16 @@ Figure distributions_figure(const Axes& axes) {
   const std::string table = "distributions.csv";
   figure.tables = {{table, curves_csv(groups)}};
   figure.caption += few_of_all_text(groups.size(), axes);
+  double shortest = farthest, longest = 0.0;  // of the curves g, d
+  for (const GroupWithCurves& group : groups) {
+    shortest = std::min(shortest, known_to(*group));
+    longest = std::max(longest, known_to(*group));
+  }
+  const double shown = longest > 0.0 ? std::min(longest, farthest) : farthest;
+  if (shortest < farthest) {
+    figure.caption +=
+        " g ends at half a period or at an edge of the measured slab, whichever is shorter.";
+  }
   std::vector<std::string> pairs, forces;
   std::vector<KeyEntry> key;
   const auto titles = titles_of(groups, longest_entry, axes);
@@ -238,7 +257,7 @@ Figure distributions_figure(const Axes& axes) {
   }
   const Panels panels(figure, 2, {1.0}, key, {.right = 24.0});
   figure.commands =
-      "set multiplot\n" + panels.key() + panels.place(0, 0) + range_command("x", {0.0, farthest}) +
+      "set multiplot\n" + panels.key() + panels.place(0, 0) + range_command("x", {0.0, shown}) +
       label_command("x", "distance of centres, r / d") +
       label_command("y", "pair correlation g(r)") +
       range_command("y", range_of(curve_values(groups, &Order::pair_correlation), 0.04)) +

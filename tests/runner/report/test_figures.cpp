@@ -284,6 +284,25 @@ TEST_CASE("densities of forces are drawn from the least to the largest that ther
              Catch::Contains("set xrange [0:2]\nset yrange [0.08333333333333333:3.75]\n"));
 }
 
+TEST_CASE("the axis of distances ends with the last curve, and the caption says why curves end",
+          "[report]") {
+  std::vector<Row> rows = wall_rows();
+  const auto set_length = [&](std::size_t row, std::size_t bins) {
+    rows[row].outcome->result.order.pair_correlation = {0.05, std::vector<double>(bins, 1.0)};
+  };
+  const auto drawn = [&] {
+    return figure_called(figures_of(rows, analyse(rows), {}), "distributions");
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) set_length(k, k < 3 ? 40 : 50);
+  CHECK_THAT(drawn().commands, Catch::Contains("set xrange [0:2.5]\nset xlabel 'distance"));
+  CHECK_THAT(drawn().caption, Catch::Contains(" g ends at half a period"));
+  for (std::size_t k = 0; k < rows.size(); ++k) set_length(k, k < 3 ? 40 : 100);
+  CHECK_THAT(drawn().commands, Catch::Contains("set xrange [0:4]\nset xlabel 'distance"));
+  CHECK_THAT(drawn().caption, Catch::Contains(" g ends at half a period"));
+  for (std::size_t k = 0; k < 3; ++k) set_length(k, 100);
+  CHECK_THAT(drawn().caption, !Catch::Contains(" g ends"));
+}
+
 TEST_CASE("a curve ends where a table has no value", "[report]") {
   CHECK_THAT(plot_part({"a.csv", "n", 1, "x", "y", "", "lines"}),
              Catch::Contains("(strcol('y') eq '' ? NaN : (column('y')))"));
