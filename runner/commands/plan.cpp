@@ -3,7 +3,9 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <CLI/App.hpp>
@@ -198,11 +200,29 @@ std::vector<std::string> cells_of(const PlannedGroup& group, const GivenUnits& u
   return cells;
 }
 
+/// The groups with their names, those of one name together: in the order in which names first
+/// appear.
+std::vector<std::pair<std::string, const PlannedGroup*>> by_name(
+    const std::vector<PlannedGroup>& groups, const PackingNames& names) {
+  std::map<std::string, std::size_t> place_of;
+  std::vector<std::pair<std::string, const PlannedGroup*>> named;
+  named.reserve(groups.size());
+  for (const PlannedGroup& group : groups) {
+    named.emplace_back(names.family_of(facts_of(*group.first)), &group);
+    place_of.try_emplace(named.back().first, place_of.size());
+  }
+  std::stable_sort(named.begin(), named.end(), [&](const auto& a, const auto& b) {
+    return place_of.at(a.first) < place_of.at(b.first);
+  });
+  return named;
+}
+
 std::string groups_text(const std::vector<PlannedGroup>& groups, const PackingNames& names,
                         const GivenUnits& units) {
   std::vector<NamedLine> lines;
-  for (std::size_t i = 0; i < std::min(groups.size(), groups_shown); ++i) {
-    lines.push_back({names.family_of(facts_of(*groups[i].first)), cells_of(groups[i], units)});
+  for (const auto& [name, group] : by_name(groups, names)) {
+    if (lines.size() == groups_shown) break;
+    lines.push_back({name, cells_of(*group, units)});
   }
   const auto has_extent = [&](bool is_tube) {
     return std::any_of(groups.begin(), groups.end(), [&](const PlannedGroup& group) {

@@ -106,6 +106,12 @@ expect_text out.txt "height/d  height/mm"
 if grep -E '^.{101}' <(grep "height/d" -A 5 out.txt); then fail "the table of plan is wider than 100 characters"; fi
 rm -r units units.reference.json
 
+# The plan has the parameter sets of a family together, however the grid is written.
+printf '{"name": "grid", "sweep": [{"label": "two sizes", "grid": {%s}}]}' \
+  '"box.width": [4, 5], "sizes.small_share": [0, 0.25]' >grid.json
+expect_code 0 "$program" plan grid.json
+[ "$(grep -c "two sizes small_share=0$" out.txt)" -eq 1 ] || fail "plan lists a family in parts: $(cat out.txt)"
+
 # A bed of 110 GB: validate warns where plan does.
 cat >large.json <<'JSON'
 { "name": "large", "replicates": 1,
