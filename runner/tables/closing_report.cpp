@@ -144,12 +144,31 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals,
   return text;
 }
 
+/// " (periodic: open)": labels of packings without walls that those between walls, by which
+/// families are called, do not have.
+std::string other_labels(const std::vector<const Family*>& families) {
+  std::set<std::string> walled, told;
+  for (const Family* family : families) {
+    for (const Group& group : family->walled) walled.insert(group.job.label);
+  }
+  std::string text;
+  if (walled.empty()) return text;
+  for (const Family* family : families) {
+    for (const Group& group : family->periodic) {
+      const std::string& label = group.job.label;
+      if (label.empty() || walled.contains(label) || !told.insert(label).second) continue;
+      text += (text.empty() ? " (periodic: " : " + ") + label;
+    }
+  }
+  return text + (text.empty() ? "" : ")");
+}
+
 /// A family with its fits.
 std::string family_text(const Family& family, const GivenUnits& units) {
   std::vector<TableLine> lines;
   append_lines(family, lines);
   for (TableLine& line : lines) line.name.clear();
-  return "\n" + family.name + "\n" + table_text(lines) +
+  return "\n" + family.name + other_labels({&family}) + "\n" + table_text(lines) +
          fit_text(family, Quantity::solid_fraction, solid_fraction_decimals, units) +
          fit_text(family, Quantity::coordination, coordination_decimals, units);
 }
@@ -162,7 +181,8 @@ std::string families_text(const std::vector<const Family*>& families) {
     append_lines(*family, lines);
     is_walled = is_walled || !family->walled.empty();
   }
-  std::string text = "\n" + families.front()->labels + "\n" + table_text(lines);
+  std::string text =
+      "\n" + families.front()->labels + other_labels(families) + "\n" + table_text(lines);
   if (is_walled) {
     const std::string extent = extent_in(lines);
     text += "  φ = φ_bulk - C/" + extent + " and Z = Z_bulk - C_Z/" + extent +
