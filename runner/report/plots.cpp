@@ -187,8 +187,10 @@ std::string plot_part(const Curve2d& curve) {
                              ")";  // a line ends where there is no value
   std::string plain = points + " with " + curve.style + " notitle";
   if (curve.error.empty()) return plain;
-  return points + ":" + column(curve.error) + " with yerrorbars " +
-         curve.style.substr(curve.style.find(' ') + 1) + " ps 0 notitle, " + plain;
+  std::string of_bars = curve.style.substr(curve.style.find(' ') + 1);
+  of_bars.resize(std::min(of_bars.size(), of_bars.find(" ps ")));
+  return points + ":" + column(curve.error) + " with yerrorbars " + of_bars + " ps 0 notitle, " +
+         plain;
 }
 
 std::string plot_command(const std::vector<std::string>& parts) {

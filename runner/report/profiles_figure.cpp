@@ -16,48 +16,71 @@ namespace {
 constexpr std::size_t most_profiles = 3;
 const std::string bins_table = "profiles.csv";
 
+/// A coordination number as far as it is drawn: none that so few packings tell that its bar would
+/// dwarf all others.
+Spread shown_coordination(const Group& group, const Spread& coordination) {
+  constexpr int fewest = 3;
+  return coordination.n < std::min(fewest, group.counts.settled)
+             ? Spread{no_number, no_number, 0, no_number, 0.0}
+             : coordination;
+}
+
 std::string bins_csv(const std::vector<GroupWithCurves>& groups) {
-  std::string text =
-      csv_line({"panel", "group", "y", "solid_fraction", "large", "large_error", "coordination",
-                "coordination_error", "coordination_with_walls", "name"});
+  std::string text = csv_line({"panel", "group", "y", "solid_fraction", "large", "large_error",
+                               "coordination", "coordination_error", "coordination_with_walls",
+                               "coordination_with_walls_error", "name"});
   for (std::size_t k = 0; k < groups.size(); ++k) {
     for (const MeanBin& bin : mean_profile(*groups[k], profile_across(*groups[k]))) {
+      const Spread z = shown_coordination(*groups[k], bin.coordination),
+                   with_walls = shown_coordination(*groups[k], bin.coordination_with_walls);
       text += csv_line({cell(k + 1), cell(groups[k]->number), cell((bin.low + bin.high) / 2.0),
                         cell(bin.solid_fraction.mean), cell(bin.large.mean), cell(bin.large.error),
-                        cell(bin.coordination.mean), cell(bin.coordination.error),
-                        cell(bin.coordination_with_walls.mean), cell(title_of(*groups[k]))});
+                        cell(z.mean), cell(z.error), cell(with_walls.mean), cell(with_walls.error),
+                        cell(title_of(*groups[k]))});
     }
   }
   return text;
 }
 
-enum class WithBars { no, yes };
-
-/// What the panels of a row show of these, so that they have one range.
-Bars bars_in(const std::vector<GroupWithCurves>& groups, Spread MeanBin::*spread, WithBars with) {
+/// What the panels of a row show of these, so that they have one range: `shown(group, bin)`.
+template <class Shown>
+Bars bars_in(const std::vector<GroupWithCurves>& groups, Shown shown) {
   Bars bars;
   for (const GroupWithCurves& group : groups) {
     for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
-      const Spread& one = bin.*spread;
-      bars.push_back({one.mean, with == WithBars::yes ? one.error : no_number});
+      const Spread one = shown(*group, bin);
+      bars.push_back({one.mean, one.error});
     }
   }
   return bars;
 }
 
-/// The points with bars.
-Bars measured_bars(const std::vector<GroupWithCurves>& groups) {
-  return bars_in(groups, &MeanBin::large, WithBars::yes);
+/// The solid fractions with bars.
+Bars solid_bars(const std::vector<GroupWithCurves>& groups) {
+  return bars_in(groups, [](const Group&, const MeanBin& bin) { return bin.large; });
 }
 
-/// The range of a row of panels.
-Range range_of_row(const std::vector<Bars>& all) {
-  std::vector<double> ends;
-  for (const Bars& bars : all) {
-    const std::vector<double> some = shown_ends(bars);
-    ends.insert(ends.end(), some.begin(), some.end());
+/// The range of the panels above, in which solid fractions of all grains have no bars.
+Range solid_range(const std::vector<GroupWithCurves>& groups) {
+  std::vector<double> ends = shown_ends(solid_bars(groups));
+  for (const GroupWithCurves& group : groups) {
+    for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
+      ends.push_back(bin.solid_fraction.mean);
+    }
   }
   return range_of(ends, 0.06);
+}
+
+/// Both coordination numbers.
+Bars coordination_bars(const std::vector<GroupWithCurves>& groups) {
+  Bars bars;
+  for (Spread MeanBin::*spread : {&MeanBin::coordination, &MeanBin::coordination_with_walls}) {
+    const Bars some = bars_in(groups, [=](const Group& group, const MeanBin& bin) {
+      return shown_coordination(group, bin.*spread);
+    });
+    bars.insert(bars.end(), some.begin(), some.end());
+  }
+  return bars;
 }
 
 /// The curve that describes the layers of large grains, from both walls to the middle.
@@ -101,8 +124,8 @@ constexpr const char* without_walls_style = "linespoints ls 1 lw 1.4 ps 0.3";
 constexpr const char* with_walls_style = "linespoints ls 5 lw 1.4 ps 0.3";
 
 std::string coordination_panel(std::size_t k, const Group& group) {
-  const auto curve = [&](const char* column, const char* style) {
-    return plot_part({bins_table, "panel", k + 1, "y", column, "", style});
+  const auto curve = [&](const std::string& column, const char* style) {
+    return plot_part({bins_table, "panel", k + 1, "y", column, column + "_error", style});
   };
   std::vector<std::string> parts = {curve("coordination", without_walls_style)};
   if (group.job.box.y == Boundary::walls) {
@@ -128,12 +151,9 @@ std::string commands_of(Figure& figure, const std::vector<GroupWithCurves>& grou
   }
   const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
   std::string text = "set multiplot\n" + panels.key();
-  const auto row = [&](const Bars& bars, Spread MeanBin::*of_all) {
-    return range_command("y", range_of_row({bars, bars_in(groups, of_all, WithBars::no)}));
-  };
-  const std::string solid = row(measured_bars(groups), &MeanBin::solid_fraction);
+  const std::string solid = range_command("y", solid_range(groups));
   const std::string touching =
-      row(bars_in(groups, &MeanBin::coordination, WithBars::no), &MeanBin::coordination_with_walls);
+      range_command("y", range_of(shown_ends(coordination_bars(groups)), 0.06));
   const auto titles = titles_of(groups, panels.title_length(), axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     text += panels_across(panels, k, titles[k], *groups[k],
@@ -174,6 +194,22 @@ std::string decays_text(const std::vector<GroupWithCurves>& groups,
   return text;
 }
 
+/// Whether bins are left out, and why.
+std::string left_out_bins_text(const std::vector<GroupWithCurves>& groups) {
+  const auto is_left_out = [](const Group& group, const MeanBin& bin) {
+    return bin.coordination.n > 0 && shown_coordination(group, bin.coordination).n == 0;
+  };
+  const bool are_left_out =
+      std::any_of(groups.begin(), groups.end(), [&](const GroupWithCurves& group) {
+        const auto bins = mean_profile(*group, profile_across(*group));
+        return std::any_of(bins.begin(), bins.end(),
+                           [&](const MeanBin& bin) { return is_left_out(*group, bin); });
+      });
+  return are_left_out ? " Z of bins with grains in fewer than 3 packings, or of 2 packings in one, "
+                        "is left out."
+                      : "";
+}
+
 }  // namespace
 
 Figure profiles_figure(const Axes& axes) {
@@ -192,8 +228,10 @@ Figure profiles_figure(const Axes& axes) {
   figure.height = 520;
   const std::string few = few_of_all_text(groups.size(), axes);
   figure.caption = "Solid fraction and coordination number of " + bins_text(bins) +
-                   bars_text({measured_bars(groups)}, " at " + measured_phi(groups)) + "." +
-                   curve_text(bins) + decays_text(groups, fits, axes) +
+                   bars_text({solid_bars(groups), coordination_bars(groups)},
+                             " at " + measured_phi(groups) + " and Z") +
+                   "." + left_out_bins_text(groups) + curve_text(bins) +
+                   decays_text(groups, fits, axes) +
                    (few.empty() ? "" : few + " The others are in the folder's profiles.csv.");
   figure.tables = {{bins_table, bins_csv(groups)}};
   figure.commands = commands_of(figure, groups, fits, axes);

@@ -404,12 +404,13 @@ TEST_CASE("the key of the layers has what is drawn", "[report]") {
   CHECK_THAT(fitted.commands,
              Catch::Contains("title 'damped cosine'") && Catch::Contains("title 'φ'") &&
                  !Catch::Contains("title 'φ of large grains'") && !Catch::Contains("ls 3 lw 0.8"));
-  CHECK_THAT(fitted.caption, Catch::Contains("bars at φ are") && !Catch::Contains("The others"));
+  CHECK_THAT(fitted.caption,
+             Catch::Contains("bars at φ and Z are") && !Catch::Contains("The others"));
   for (Row& row : rows) row.outcome->result.profile_y.bins[9].small = 0.1;
   const Figure of_classes = profiles_of(rows);
   CHECK_THAT(of_classes.commands, Catch::Contains("title 'φ of large grains'") &&
                                       Catch::Contains("title 'φ of all grains'"));
-  CHECK_THAT(of_classes.caption, Catch::Contains("bars at φ of large grains are"));
+  CHECK_THAT(of_classes.caption, Catch::Contains("bars at φ of large grains and Z are"));
   CHECK_THAT(of_classes.commands,
              Catch::Contains("with linespoints ls 1 lw 1.4 ps 0.3 notitle") &&  // also a bin alone
                  Catch::Contains("'Z, walls counted'"));
@@ -421,6 +422,30 @@ TEST_CASE("the key of the layers has what is drawn", "[report]") {
   CHECK_THAT(profiles_of(many).caption,
              Catch::EndsWith(" 3 of 20 groups are shown. The others are in the folder's "
                              "profiles.csv."));
+}
+
+TEST_CASE("Z of layers has bars, and is left out where fewer than three packings tell it",
+          "[report]") {
+  std::vector<Row> rows = layered_rows(0.0);
+  const auto drawn = [&] { return figure_called(figures_of(rows, analyse(rows), {}), "profiles"); };
+  CHECK_THAT(drawn().caption, !Catch::Contains("left out"));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<ProfileBin>& bins = rows[k].outcome->result.profile_y.bins;
+    bins[8].neighbours = 25 + static_cast<std::int64_t>(k);
+    if (k > 1) bins[9].large_grains = 0;
+  }
+  const Figure figure = drawn();
+  const std::string& table = figure.tables.at(0).second;
+  CHECK(std::stod(cell_in(table, 9, "coordination")) == Approx(5.2));
+  CHECK(std::stod(cell_in(table, 9, "coordination_error")) > 0.1);
+  CHECK(std::stod(cell_in(table, 9, "coordination_with_walls_error")) > 0.1);
+  CHECK(cell_in(table, 10, "coordination").empty());
+  CHECK(cell_in(table, 10, "coordination_with_walls").empty());
+  CHECK_THAT(figure.commands, Catch::Contains("with yerrorbars ls 1 lw 1.4 ps 0 notitle"));
+  CHECK_THAT(figure.caption, Catch::Contains(" Z of bins with grains in fewer than 3 packings, "));
+  rows.resize(2);
+  CHECK(cell_in(drawn().tables.at(0).second, 10, "coordination") == "0");
+  CHECK_THAT(drawn().caption, !Catch::Contains("left out"));
 }
 
 TEST_CASE("captions and titles tell rings about the axis of a tube from slices", "[report]") {
