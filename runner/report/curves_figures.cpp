@@ -457,6 +457,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   });
   if (has_kinds) figures.push_back(contacts_figure(axes));
   figures.push_back(heights_figure(axes));
+  if (has_grading(axes)) figures.push_back(grading_figure(axes));
   figures.push_back(distributions_figure(axes));
   figures.push_back(effort_figure(axes, rows));
   const auto is_value = [](const Comparison& one) { return !one.published.formula; };

@@ -13,8 +13,9 @@ namespace grainsweep {
 
 /// What the files of figures begin with.
 inline constexpr std::array figure_names = {
-    "parameters",   "means",      "means-residuals", "means-published", "profiles", "heights",
-    "small_grains", "components", "contacts",        "distributions",   "effort",   "published"};
+    "parameters",    "means",   "means-residuals", "means-published", "profiles",
+    "heights",       "grading", "small_grains",    "components",      "contacts",
+    "distributions", "effort",  "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals,
 /// and published formulas of them.
@@ -30,6 +31,13 @@ Figure profiles_figure(const Axes& axes);
 
 /// Solid fraction and coordination number from the floor to the surface.
 Figure heights_figure(const Axes& axes);
+
+/// Whether any settled packing has a distribution of sizes.
+bool has_grading(const Axes& axes);
+
+/// The share of the grains that is finer than each diameter: asked for, packed, and in the measured
+/// slab.
+Figure grading_figure(const Axes& axes);
 
 /// How far the walls reach and what they cost, against the share of small grains.
 Figure small_share_figure(const std::vector<Family>& families, const std::string& folder);

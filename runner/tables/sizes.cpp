@@ -1,5 +1,7 @@
 #include "runner/tables/sizes.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace grainsweep {
@@ -44,6 +46,36 @@ std::vector<SizeLine> mean_sizes(const Group& group) {
         {rows[k].diameter, rows[k].asked, spread(&SizeRow::packed), spread(&SizeRow::slab)});
   }
   return lines;
+}
+
+bool has_size_distribution(const JobFacts& job) {
+  return job.parameters.text().find("\"distribution\":") != std::string::npos;
+}
+
+std::string size_weight(const JobFacts& job) {
+  const auto parameters = flat_parameters(job);
+  const auto by = parameters.find("sizes.distribution.by");
+  return by == parameters.end() ? "volume" : by->second;
+}
+
+std::optional<SizeLine> slab_difference(const Group& group) {
+  constexpr double least_share = 0.02, tenth = 0.1, half = 0.5;
+  constexpr double errors_by_chance = 2.0;
+  const std::vector<SizeLine> lines = mean_sizes(group);
+  std::optional<SizeLine> largest;
+  double most = 0.0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Spread difference = spread_of_entry(
+        group, k, &PackingResult::sizes, [](const SizeRow& row) { return row.slab - row.packed; });
+    const double share = lines[k].packed.mean, size = std::abs(difference.mean);
+    const double least = difference.n > 1
+                             ? std::max(tenth * share, errors_by_chance * difference.error)
+                             : half * share;
+    if (share < least_share || !(size > least) || size <= most) continue;
+    largest = lines[k];
+    most = size;
+  }
+  return largest;
 }
 
 CurveTable sizes_table(const Varied& varied, const GivenUnits& units) {

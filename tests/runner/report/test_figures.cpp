@@ -49,6 +49,16 @@ std::vector<Row> layered_rows(double wave) {
   return rows;
 }
 
+/// A packing whose sizes are a distribution.
+Row graded_row(const std::string& id, std::vector<SizeRow> sizes) {
+  Row row = settled_row(id, 5, 0.6, 6);
+  row.job.label = id;
+  row.job.parameters =
+      R"({"box":{"width":5},"sizes":{"distribution":{"by":"volume","of":")" + id + R"("}}})";
+  row.outcome->result.sizes = std::move(sizes);
+  return row;
+}
+
 /// Points of two parameters at random, each with a value of its own.
 std::vector<Row> random_rows() {
   std::vector<Row> rows;
@@ -511,8 +521,40 @@ TEST_CASE("figures without a meaning for the sweep are left out", "[report]") {
   CHECK(has("distributions"));
   CHECK(has("effort"));
   CHECK_FALSE(has("contacts"));
+  CHECK_FALSE(has("grading"));
   CHECK_FALSE(has("small_grains"));
   CHECK_FALSE(has("published"));
+}
+
+TEST_CASE("sizes asked for and packed are drawn over the diameter, steps as steps", "[report]") {
+  const std::vector<Row> rows = {graded_row("sieved", {{0.5, 0, 0, 0}, {2, 1, 1, 1}}),
+                                 graded_row("two sizes", {{0.5, 0.25, 0.26, 0.125}, {2, 1, 1, 1}})};
+  const Analysis analysis = analyse(rows);
+  const std::vector<Figure> figures = figures_of(rows, analysis, {}, Units{4.0, "mm", {}});
+  const Figure& grading = figure_called(figures, "grading");
+  const std::string& table = grading.tables.at(0).second;
+  REQUIRE(cells_of_table(table).size() == 1 + 2 + 4);
+  CHECK(cell_in(table, 2, "asked") == "1");
+  CHECK(cell_in(table, 3, "asked") == "0");
+  CHECK(cell_in(table, 3, "packed").empty());
+  CHECK(cell_in(table, 4, "asked") == "0.25");
+  CHECK(cell_in(table, 4, "packed") == "0.26");
+  CHECK(cell_in(table, 4, "slab") == "0.125");
+  CHECK(cell_in(table, 4, "diameter_mm") == "2");
+  CHECK(cell_in(table, 5, "asked") == "0.25");
+  CHECK_THAT(grading.commands, Catch::Contains("set xlabel 'diameter / mm'") &&
+                                   Catch::Contains("(column('diameter_mm'))") &&
+                                   Catch::Contains("'share finer, by volume'") &&
+                                   !Catch::Contains("logscale"));
+  CHECK_THAT(grading.caption, Catch::Contains("sizes.csv"));
+}
+
+TEST_CASE("diameters that span more than a decade lie on a logarithmic axis", "[report]") {
+  const std::vector<Row> rows = {graded_row("wide", {{0.125, 0, 0, 0}, {2, 1, 1, 1}})};
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  CHECK_THAT(figure_called(figures, "grading").commands, Catch::Contains("set logscale x\n") &&
+                                                             Catch::Contains("set xtics (") &&
+                                                             Catch::Contains("'diameter / d'"));
 }
 
 TEST_CASE("published formulas are drawn beside the means, each once, where they hold", "[report]") {
@@ -575,6 +617,7 @@ TEST_CASE("the files of all figures have the names by which they are removed", "
   add({settled_row("a", 4, 0.6, 5.0, Boundary::walls, 0.25),
        settled_row("b", 4, 0.6, 5.0, Boundary::walls, 0.5)},
       {});
+  add({graded_row("c", {{1, 1, 1, 1}})}, {});
   CHECK(stems == std::set<std::string>(figure_names.begin(), figure_names.end()));
 }
 

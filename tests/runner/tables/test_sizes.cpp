@@ -32,6 +32,34 @@ TEST_CASE("grains without a distribution, and groups without settled packings, h
   CHECK(sizes_csv(analyse(rows).groups) == sizes_csv({}));
 }
 
+TEST_CASE("a slab differs from its bed where chance would not make it differ as much") {
+  const auto differs = [](const std::vector<double>& slab_shares, double packed = 0.1) {
+    std::vector<Row> rows;
+    for (const double share : slab_shares) {
+      rows.push_back(
+          row_with_sizes(std::to_string(rows.size()), {{0.5, 0.1, packed, share}, {2, 1, 1, 1}}));
+    }
+    const std::vector<Group> groups = analyse(rows).groups;
+    const auto line = slab_difference(groups.front());
+    return line && line->diameter == 0.5;
+  };
+  CHECK(differs({0.07, 0.071, 0.072}));
+  CHECK(differs({0.13, 0.131, 0.132}));
+  CHECK_FALSE(differs({0.095, 0.0951, 0.0952}));  // less than a tenth
+  CHECK_FALSE(differs({0.07, 0.12, 0.05}));       // by chance
+  CHECK_FALSE(differs({0.005, 0.0051}, 0.01));    // of next to no grains
+  CHECK(differs({0.04}));                         // a single packing
+  CHECK_FALSE(differs({0.07}));
+}
+
+TEST_CASE("the weight of a distribution is told by its parameters") {
+  JobFacts job = sample_job("a", 5);
+  CHECK_FALSE(has_size_distribution(job));
+  job.parameters = R"({"sizes":{"distribution":{"by":"number"}}})";
+  CHECK(has_size_distribution(job));
+  CHECK(size_weight(job) == "number");
+}
+
 TEST_CASE("diameters are told in the units of the sweep, too") {
   const std::vector<Row> rows = {row_with_sizes("a", {{0.5, 1, 1, 1}})};
   const std::vector<Group> groups = analyse(rows).groups;
