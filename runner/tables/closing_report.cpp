@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "engine/text.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/states.hpp"
 #include "runner/tables/csv.hpp"
@@ -14,6 +15,7 @@
 #include "runner/tables/fits.hpp"
 #include "runner/tables/named_lines.hpp"
 #include "runner/tables/packing_names.hpp"
+#include "runner/tables/sizes.hpp"
 #include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
@@ -347,10 +349,28 @@ std::string small_share_text(const std::vector<Family>& families) {
                             text;
 }
 
+/// "0.071 by volume up to 0.2 d, in the whole bed 0.100": where the slab of grains of a
+/// distribution differs most from the bed; nothing where it does not, or its curves cannot be read.
+std::string sizes_in_slab_text(const Group& group, const std::string& folder) {
+  if (group.settled.empty() || !has_size_distribution(group.job)) return "";
+  try {
+    const GroupWithCurves with_curves(group, folder);
+    const auto line = slab_difference(*with_curves);
+    return line ? fixed(line->slab.mean, 3) + " by " + size_weight(group.job) + " up to " +
+                      number_text(line->diameter) + " d, in the whole bed " +
+                      fixed(line->packed.mean, 3) + " (sizes.csv)"
+                : "";
+  } catch (const FileError&) {
+    return "";  // whoever reads results is warned about damaged beds
+  }
+}
+
 /// Groups whose measured slab holds a tenth more or less of small grains than their beds: small
 /// grains that fit through the gaps between large ones sink to the floor.
-std::string percolation_text(const std::vector<Family>& families) {
-  const std::string text = lines_of_groups(families, [](const Group& group) -> std::string {
+std::string percolation_text(const std::vector<Family>& families, const std::string& folder) {
+  const std::string text = lines_of_groups(families, [&](const Group& group) -> std::string {
+    std::string by_sizes = sizes_in_slab_text(group, folder);
+    if (!by_sizes.empty()) return by_sizes;
     const double all = mean_of(group, "bed_small_share").mean;
     const double slab = mean_of(group, "slab_small_share").mean;
     return differs(slab, all)
@@ -414,10 +434,17 @@ std::string effort_text(const Provenance& provenance, double cpu_seconds) {
 }
 
 /// Where the tables are.
-std::string where_text(const ReportPlace& place) {
+std::string where_text(const std::vector<Family>& families, const ReportPlace& place) {
   if (!place.has_tables) return "";
+  const auto has_sizes = [](const Group& group) { return has_size_distribution(group.job); };
+  const bool have_sizes = std::any_of(families.begin(), families.end(), [&](const Family& family) {
+    return std::any_of(family.walled.begin(), family.walled.end(), has_sizes) ||
+           std::any_of(family.periodic.begin(), family.periodic.end(), has_sizes);
+  });
   return (place.is_worked_on ? "Tables come when the run ends, in " : "Tables in ") + place.folder +
-         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv and more;\n"
+         ": packings.csv, groups.csv, fits.csv, profiles.csv, decays.csv" +
+         (have_sizes ? ", sizes.csv" : "") +
+         " and more;\n"
          "provenance.json says how they were made\n";
 }
 
@@ -458,9 +485,10 @@ std::string closing_report(const Provenance& provenance, const std::vector<Row>&
   std::string text = headline(provenance.sweep_name, rows.size(), totals.counts);
   return text + tables_text(families, provenance.units) +
          laboratory_text(families, provenance.units) + definitions_text(rows) +
-         bias_text(families) + small_share_text(families) + percolation_text(families) +
-         reasons_text(rows, PackingNames(families)) + effort_text(provenance, totals.cpu_seconds) +
-         where_text(place) + next_text(sweep_file_of(provenance), totals.counts, place);
+         bias_text(families) + small_share_text(families) +
+         percolation_text(families, place.folder) + reasons_text(rows, PackingNames(families)) +
+         effort_text(provenance, totals.cpu_seconds) + where_text(families, place) +
+         next_text(sweep_file_of(provenance), totals.counts, place);
 }
 
 }  // namespace grainsweep

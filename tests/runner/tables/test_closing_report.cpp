@@ -335,6 +335,24 @@ TEST_CASE("small grains that sank out of the slab are warned of, a few in a hund
   CHECK_THAT(text_of(0.19), !Catch::Contains("Warning"));
 }
 
+TEST_CASE("fine grains of a distribution that sank out of the slab are warned of, too") {
+  const auto text_of = [](double slab_share) {
+    std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
+    for (Row& row : rows) {
+      row.job.parameters = R"({"sizes":{"distribution":{"by":"volume"}}})";
+      const double scatter = row.job.id == "a" ? 1e-4 : -1e-4;
+      row.outcome->result.sizes = {{0.2, 0.1, 0.1, slab_share + scatter}, {1, 1, 1, 1}};
+    }
+    return report_of(reported_provenance(), rows, "out/a");
+  };
+  CHECK_THAT(text_of(0.07),
+             Catch::Contains("Warning: small grains are not where") &&
+                 Catch::Contains(
+                     ", W = 5: 0.070 by volume up to 0.2 d, in the whole bed 0.100 (sizes.csv)\n"));
+  CHECK_THAT(text_of(0.095), !Catch::Contains("Warning"));
+  CHECK_THAT(text_of(0.095), Catch::Contains(", decays.csv, sizes.csv and more;\n"));
+}
+
 TEST_CASE("beds that do not hold the share of small grains that was asked for are warned of") {
   const auto text_of = [](double share_of_bed) {
     std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.6, 6)};
