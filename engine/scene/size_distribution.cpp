@@ -284,18 +284,38 @@ bool leaves_grains(const SizeDistribution& distribution) {
          passing_at(curve, largest) > passing_at(curve, std::nextafter(smallest, 0.0));
 }
 
+/// The least number of three digits that is no smaller than a positive `value`.
+std::string rounded_up(double value) {
+  constexpr double rounding = 1e-9;
+  const double last_digit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return number_text(std::ceil(value / last_digit - rounding) * last_digit);
+}
+
+/// In what unit lengths of a distribution are given.
+std::string unit_text(double size) {
+  return size == 1.0 ? "in d" : "in the unit in which d is " + number_text(size, 6);
+}
+
+/// Which ends to give to a curve whose largest grain is too many times the smallest.
+std::string ends_advice(double largest, double size) {
+  const double least = largest / most_size_ratio;
+  if (least > 1.0) return "; largest must cut off more, too";
+  return "; give smallest " + rounded_up(size * least) + " or more, " + unit_text(size);
+}
+
 /// What is wrong with the ends of a curve: a bed must be able to hold them, and d must lie between
 /// them.
-std::string ends_fault(const SizeCurve& curve) {
+std::string ends_fault(const SizeCurve& curve, double size) {
   const double smallest = curve.diameters.front(), largest = curve.diameters.back();
   const std::string reach = number_text(smallest) + " to " + number_text(largest) + " d";
   if (!(smallest <= 1.0 && largest >= 1.0)) {
     return "size is missing or wrong: grains of " + reach +
            "; d, the unit of length, must be a length between the smallest and the largest";
   }
-  if (largest <= most_size_ratio * smallest) return "";
+  constexpr double rounding = 1e-12;  // of lengths in another unit
+  if (largest <= (1.0 + rounding) * most_size_ratio * smallest) return "";
   return "smallest must cut off more: the largest grain may be " + number_text(most_size_ratio) +
-         " times the smallest, has " + reach;
+         " times the smallest, has " + reach + ends_advice(largest, size);
 }
 
 }  // namespace
@@ -308,10 +328,13 @@ std::string fault_of(const SizeDistribution& distribution) {
   if (!fault.empty()) return fault;
   if (!leaves_grains(distribution)) {
     const SizeCurve whole = curve_of({distribution.formula, distribution.by, {}, {}});
-    return joined("smallest and largest leave nothing of the curve, which runs from ",
-                  whole.diameters.front(), " to ", whole.diameters.back(), " d");
+    const double size = distribution.size;
+    return "smallest and largest leave nothing of the curve, which runs from " +
+           number_text(size * whole.diameters.front(), 6) + " to " +
+           number_text(size * whole.diameters.back(), 6) + ", " + unit_text(size) +
+           (size == 1.0 ? "; size says what d is where lengths are in another unit" : "");
   }
-  return ends_fault(curve_of(distribution));
+  return ends_fault(curve_of(distribution), distribution.size);
 }
 
 SizeCurve curve_of(const SizeDistribution& distribution) {

@@ -53,6 +53,7 @@ struct SizeDistribution {
   /// Where the curve is cut, d; what is left counts as the whole. Without these bounds lognormal
   /// and Weibull curves, which have no ends, are cut where 0.1 % lie beyond.
   std::optional<double> smallest = {}, largest = {};
+  double size = 1.0;  ///< d in the unit in which people gave all these lengths: for messages
   bool operator==(const SizeDistribution&) const = default;
 };
 

@@ -173,6 +173,7 @@ void to_units_of(double size, SizeDistribution& distribution) {
     if (*end) lengths.push_back(&**end);
   }
   for (double* length : lengths) *length /= size;
+  distribution.size = size;
 }
 
 std::vector<Parameter> size_parameters() {

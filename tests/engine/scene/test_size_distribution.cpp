@@ -276,6 +276,31 @@ TEST_CASE("what is wrong with a distribution is said") {
   CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}).starts_with("table.shares must add up to 1"));
 }
 
+TEST_CASE("ends to give to a curve are told in the unit of its lengths") {
+  const auto fault = [](std::optional<double> smallest, std::optional<double> largest = {}) {
+    SizeDistribution sieved =
+        distribution_of(SizeTable{{0.1, 1.0, 6.0}, {0, 0.5, 1}, {}}, SizeWeight::volume);
+    sieved.size = 20.0;
+    for (auto& [to, length] :
+         {std::pair(&sieved.smallest, smallest), std::pair(&sieved.largest, largest)}) {
+      if (length) *to = *length / sieved.size;
+    }
+    return fault_of(sieved);
+  };
+  CHECK(fault({}) ==
+        "smallest must cut off more: the largest grain may be 50 times the smallest, has 0.1 to 6 "
+        "d; give smallest 2.4 or more, in the unit in which d is 20");
+  CHECK(fault(2.4).empty());
+  CHECK(fault(400.0, 500.0) ==
+        "smallest and largest leave nothing of the curve, which runs from 2 to 120, in the unit in "
+        "which d is 20");
+  CHECK(fault_of(distribution_of(UniformSizes{0.5, 1.5}, SizeWeight::volume, 20.0))
+            .ends_with("from 0.5 to 1.5, in d; size says what d is where lengths are in another "
+                       "unit"));
+  CHECK(fault_of(distribution_of(UniformSizes{0.5, 60.0}, SizeWeight::volume))
+            .ends_with("; largest must cut off more, too"));
+}
+
 TEST_CASE("the grains of one size at an end asked for are left") {
   const SizeTable table{{0.3, 1.0, 2.0}, {}, {0.2, 0.3, 0.5}};
   const SizeCurve curve = curve_of(distribution_of(table, SizeWeight::number, 1.0, 2.0));

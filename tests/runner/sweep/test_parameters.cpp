@@ -59,7 +59,7 @@ TEST_CASE("the table knows every member of a specification") {
       PackingSpec{};
   [[maybe_unused]] const auto& [length, width, x, y, is_tube] = box;
   [[maybe_unused]] const auto& [spread, small_share, size_ratio, distribution] = sizes;
-  [[maybe_unused]] const auto& [formula, by, smallest, largest] = SizeDistribution{};
+  [[maybe_unused]] const auto& [formula, by, smallest, largest, size] = SizeDistribution{};
   [[maybe_unused]] const auto& [protocol, solver, precision, end, step, momentum, fall, path, creep,
                                 rest, residual, kinetic, contacts, overlap, imbalance,
                                 imbalance_gap, max_steps] = accuracy;
@@ -72,7 +72,7 @@ TEST_CASE("the table knows every member of a specification") {
   CHECK(find_parameter("sizes.size_ratio"));
   const auto parts = known_keys("sizes.distribution");
   for (const char* part :
-       {"lognormal", "uniform", "weibull", "table", "by", "smallest", "largest"}) {
+       {"lognormal", "uniform", "weibull", "table", "by", "smallest", "largest", "size"}) {
     CHECK(std::count(parts.begin(), parts.end(), part) == 1);
   }
   CHECK(known_keys("accuracy").size() == 17 + 3);  // and what names or chooses a preset
