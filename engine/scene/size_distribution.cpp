@@ -213,14 +213,17 @@ std::string passing_fault(const std::vector<double>& passing) {
   const std::string rule =
       "table.passing must rise from 0 to 1, the share finer than each diameter; ";
   if (last > 1.0) return rule + "ends at " + number_text(last) + ": divide percentages by 100";
+  const auto fall = std::adjacent_find(passing.begin(), passing.end(),
+                                       [](double a, double b) { return !(a <= b); });
+  if (fall != passing.end()) {
+    return rule + "number " + std::to_string(fall - passing.begin() + 2) + " falls to " +
+           number_text(fall[1]) + " from " + number_text(fall[0]);
+  }
   if (!(first == 0.0)) {
     return rule + "begins at " + number_text(first) +
            ": add the largest diameter that nothing is finer than";
   }
-  if (!(last == 1.0)) {
-    return rule + "ends at " + number_text(last) + ": add a diameter that all is finer than";
-  }
-  return rule + "falls on the way";
+  return rule + "ends at " + number_text(last) + ": add a diameter that all is finer than";
 }
 
 std::string shares_fault(const std::vector<double>& shares) {

@@ -272,7 +272,10 @@ TEST_CASE("what is wrong with a distribution is said") {
         rises + "ends at 0.98: add a diameter that all is finer than");
   CHECK(fault(SizeTable{{0.5, 1.0}, {0, 100}, {}}) ==
         rises + "ends at 100: divide percentages by 100");
-  CHECK(fault(SizeTable{{0.5, 0.7, 0.8, 1.0}, {0, 0.5, 0.4, 1}, {}}) == rises + "falls on the way");
+  CHECK(fault(SizeTable{{0.5, 0.7, 0.8, 1.0}, {0, 0.5, 0.4, 1}, {}}) ==
+        rises + "number 3 falls to 0.4 from 0.5");
+  CHECK(fault(SizeTable{{0.5, 1.0, 1.5}, {0, 0.6, 0.5}, {}}) ==
+        rises + "number 3 falls to 0.5 from 0.6");
   CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}).starts_with("table.shares must add up to 1"));
 }
 
