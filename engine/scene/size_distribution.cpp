@@ -227,14 +227,11 @@ std::string passing_fault(const std::vector<double>& passing) {
 }
 
 std::string shares_fault(const std::vector<double>& shares) {
-  double whole = 0.0;
   for (const double share : shares) {
     if (!(share >= 0.0)) return "table.shares must hold no negative number";
-    whole += share;
   }
-  constexpr double rounding = 0.001;  // of shares written with three digits
-  if (std::abs(whole - 1.0) <= rounding) return "";
-  return "table.shares must add up to 1, add up to " + number_text(whole);
+  const std::string sum = sum_fault(shares);
+  return sum.empty() ? "" : "table.shares " + sum;
 }
 
 /// What is wrong with the numbers of a formula.
@@ -338,6 +335,16 @@ std::string fault_of(const SizeDistribution& distribution) {
            (size == 1.0 ? "; size says what d is where lengths are in another unit" : "");
   }
   return ends_fault(curve_of(distribution), distribution.size);
+}
+
+std::string sum_fault(const std::vector<double>& shares) {
+  double whole = 0.0;
+  for (const double share : shares) whole += share;
+  constexpr double rounding = 0.001;  // of shares written with three digits
+  if (std::abs(whole - 1.0) <= rounding) return "";
+  const bool are_percentages = std::abs(whole / 100.0 - 1.0) <= 0.02;  // rounded to whole ones
+  return "must add up to 1, add up to " + number_text(whole) +
+         (are_percentages ? ": divide percentages by 100" : "");
 }
 
 SizeCurve curve_of(const SizeDistribution& distribution) {

@@ -75,6 +75,10 @@ inline constexpr std::size_t most_size_rows = 1000;
 /// is.
 std::string fault_of(const SizeDistribution& distribution);
 
+/// Whether shares add up to 1, to the rounding of three digits: "must add up to 1, add up to 0.9";
+/// empty if they do.
+std::string sum_fault(const std::vector<double>& shares);
+
 /// The curve of a distribution without fault. Lognormal curves lie within 1e-5 of their formula and
 /// Weibull curves within 2e-5 with the default ends, wide ones with given ends within 5e-3. A curve
 /// takes 4 ms, unless it is the one that the thread asked for last.

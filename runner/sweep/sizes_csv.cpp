@@ -105,6 +105,17 @@ std::optional<Diagnostic> passing_fault(const std::vector<SizeRowRead>& rows,
   return std::nullopt;
 }
 
+/// What is wrong with shares of single diameters.
+std::optional<Diagnostic> share_fault(const std::vector<SizeRowRead>& rows,
+                                      const std::string& file) {
+  std::vector<double> shares;
+  shares.reserve(rows.size());
+  for (const SizeRowRead& row : rows) shares.push_back(row.share);
+  const std::string fault = sum_fault(shares);
+  if (fault.empty()) return std::nullopt;
+  return wrong_line(file, 1, "the numbers of column share " + fault);
+}
+
 /// What is wrong with ascending sieves and what they retain.
 std::optional<Diagnostic> retained_fault(const std::vector<SizeRowRead>& rows,
                                          const std::string& file) {
@@ -174,7 +185,7 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
   if (!reading.errors.empty()) return reading;
   auto fault = columns->kind == "passing"    ? passing_fault(rows, file)
                : columns->kind == "retained" ? retained_fault(rows, file)
-                                             : std::nullopt;
+                                             : share_fault(rows, file);
   if (fault) reading.errors.push_back(std::move(*fault));
   if (columns->kind == "retained") turn_into_passing(rows);
   reading.table = table_of(rows, columns->kind);

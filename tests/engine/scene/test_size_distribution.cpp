@@ -276,7 +276,10 @@ TEST_CASE("what is wrong with a distribution is said") {
         rises + "number 3 falls to 0.4 from 0.5");
   CHECK(fault(SizeTable{{0.5, 1.0, 1.5}, {0, 0.6, 0.5}, {}}) ==
         rises + "number 3 falls to 0.5 from 0.6");
-  CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}).starts_with("table.shares must add up to 1"));
+  CHECK(fault(SizeTable{{0.5, 1.0}, {}, {0.5, 0.4}}) ==
+        "table.shares must add up to 1, add up to 0.9");
+  CHECK(fault(SizeTable{{0.5, 1.0}, {}, {30, 69}}) ==
+        "table.shares must add up to 1, add up to 99: divide percentages by 100");
 }
 
 TEST_CASE("ends to give to a curve are told in the unit of its lengths") {

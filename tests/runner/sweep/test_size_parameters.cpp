@@ -143,11 +143,11 @@ TEST_CASE("what is wrong with a table from a file is told at its line, or at the
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].place == folder.path("sieves.csv") + ":4");
   CHECK_THAT(errors[0].message, Catch::Contains("divide percentages by 100"));
-  folder.write("sieves.csv", "diameter,share\n0.9,0.5\n2,0.7\n");  // no line of its own
+  folder.write("sieves.csv", "diameter,share\n0.9,0.5\n2,0.7\n");
   const Diagnostics of_all = read_sweep(folder.path("s.json")).errors;
   REQUIRE(of_all.size() == 1);
-  CHECK(of_all[0].pointer == "/base/sizes.distribution/table/file");
-  CHECK(of_all[0].message == "table.shares must add up to 1, add up to 1.2");
+  CHECK(of_all[0].place == folder.path("sieves.csv") + ":1");  // where the column is named
+  CHECK(of_all[0].message == "the numbers of column share must add up to 1, add up to 1.2");
 }
 
 TEST_CASE("sizes of a laboratory beside units, without their unit, are worth a note") {

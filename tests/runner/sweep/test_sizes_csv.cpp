@@ -102,6 +102,9 @@ TEST_CASE("what is no curve of sizes is told with the line that makes it none") 
   CHECK(errors_of_table("diameter,passing\n2,0\n4,0.3\n") ==
         Messages{"sieves.csv:3:" + rule + "ends at 0.3: add a diameter that all is finer than"});
   CHECK(errors_of_table("diameter,passing\n2,0\n4,0.5\n6,0.5\n8,1\n").empty());
+  CHECK(errors_of_table("diameter,share\n2,30\n4,70\n") ==
+        Messages{"sieves.csv:1: the numbers of column share must add up to 1, add up to 100: "
+                 "divide percentages by 100"});
 }
 
 }  // namespace
