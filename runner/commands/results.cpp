@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
 #include <list>
 #include <map>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -39,13 +41,48 @@ constexpr std::array tables = {"packings.csv",           "groups.csv",   "fits.c
                                "distributions.csv",      "sizes.csv",    "components.csv",
                                "component_profiles.csv", "columns.csv",  "provenance.json"};
 
+bool has_results(const std::string& folder) { return file_exists(provenance_path(folder)); }
+
+/// "out/a, out/b and 3 more", the output folders in a folder; empty if there are none.
+std::string output_folders_in(const std::string& folder) {
+  constexpr std::size_t most_named = 4;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& name : files_in(folder, "", "")) {
+    const std::string inside = (std::filesystem::path(folder) / name).string();
+    if (!has_results(inside) || ++count > most_named) continue;
+    text += (text.empty() ? "" : ", ") + shell_path(inside);
+  }
+  return text + (count > most_named ? " and " + std::to_string(count - most_named) + " more" : "");
+}
+
+/// What to do where `path` is no output folder.
+std::string instead_of(const std::string& path) {
+  const std::filesystem::path given(path);
+  std::error_code not_there;
+  const bool is_file = std::filesystem::is_regular_file(given, not_there);
+  const std::string parent = given.parent_path().string();
+  if (!parent.empty() && has_results(parent)) {
+    return "it lies in one; name that, " + shell_path(parent);
+  }
+  if (is_file) {
+    const std::string usual = (std::filesystem::path("out") / given.stem()).string();
+    return "it is a file; name the folder that a run of it wrote, " +
+           (has_results(usual) ? shell_path(usual) : "out/NAME of the sweep or what --out said");
+  }
+  if (std::filesystem::is_directory(given, not_there)) {
+    const std::string inside = output_folders_in(path);
+    if (!inside.empty()) return "name one of those in it: " + inside;
+  }
+  return "make one with " + called_as() + " run FILE --out " + shell_path(path);
+}
+
 /// Reads provenance.json. Throws BadInput.
 ProvenanceReading read_provenance(const std::string& folder) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path)) {
-    throw BadInput(folder +
-                   ": no output folder of grainsweep (it has no provenance.json); make one with " +
-                   called_as() + " run FILE --out " + shell_path(folder));
+    throw BadInput(folder + ": no output folder of grainsweep (it has no provenance.json); " +
+                   instead_of(folder));
   }
   const std::string text = read_file(path);
   try {

@@ -128,6 +128,25 @@ TEST_CASE("a folder without results is refused, and so is a broken provenance") 
                     Catch::Contains("run the sweep again"));
 }
 
+TEST_CASE("what is no output folder, but near one, is told which one to name") {
+  const TemporaryFolder folder;
+  const std::vector<Row> pending = pending_rows();
+  for (const char* name : {"/a", "/b"}) {
+    make_folder(folder.path() + name);
+    write_provenance(folder.path() + name, stored_provenance(), pending);
+  }
+  replace_file(folder.path() + "/a.json", "{}");
+  const auto refused = [&](const std::string& path, const std::string& advice) {
+    CHECK_THROWS_WITH(read_results(folder.path() + path),
+                      Catch::Contains("no output folder") && Catch::EndsWith(advice));
+  };
+  refused("", "; name one of those in it: " + folder.path() + "/a, " + folder.path() + "/b");
+  refused("/a.json",
+          "; it is a file; name the folder that a run of it wrote, out/NAME of the "
+          "sweep or what --out said");
+  refused("/a/figures", "; it lies in one; name that, " + folder.path() + "/a");
+}
+
 TEST_CASE("the sweep is recorded once, and anew where it is another or damaged") {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/provenance.json";
