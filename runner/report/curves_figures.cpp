@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "runner/report/figures.hpp"
@@ -303,13 +304,15 @@ Figure heights_figure(const Axes& axes) {
     touching.push_back(curve_of("coordination"));
   }
   const Panels panels(figure, 2, {1.0}, key, {.right = 24.0});
+  constexpr double no_bound = std::numeric_limits<double>::infinity();
   const std::string z = range_command("x", {0.0, highest}) + label_command("x", "height, z / d");
   figure.commands =
       "set multiplot\n" + panels.key() + panels.place(0, 0) + z +
       label_command("y", "solid fraction φ") +
-      range_command("y", range_of(shown_ends(solid_bars), 0.04)) + plot_command(solid) +
-      panels.place(1, 0) + z + label_command("y", "coordination number Z") +
-      range_command("y", range_of(shown_ends(touching_bars), 0.04)) + plot_command(touching);
+      range_command("y", within(range_of(shown_ends(solid_bars), 0.04), 0.0, 1.0)) +
+      plot_command(solid) + panels.place(1, 0) + z + label_command("y", "coordination number Z") +
+      range_command("y", within(range_of(shown_ends(touching_bars), 0.04), 0.0, no_bound)) +
+      plot_command(touching);
   return figure;
 }
 

@@ -335,6 +335,10 @@ Range range_of(std::vector<double> values, double room) {
   return {*low - room * span, *high + room * span};
 }
 
+Range within(const Range& range, double least, double most) {
+  return {std::max(range.low, least), std::min(range.high, most)};
+}
+
 std::string range_command(const std::string& axis, const Range& range) {
   return "set " + axis + "range [" + cell(range.low) + ":" + cell(range.high) + "]\n";
 }

@@ -148,6 +148,9 @@ Range range_of(std::vector<double> values, double room);
 /// The step, 1, 2 or 5 times a power of ten, that puts about `most` tics on an axis over `span`.
 double tic_step(double span, double most);
 
+/// The part of a range between two values beyond which nothing can be.
+Range within(const Range& range, double least, double most);
+
 /// "set xrange [0.1:0.3]"; with low above high the axis runs downwards.
 std::string range_command(const std::string& axis, const Range& range);
 

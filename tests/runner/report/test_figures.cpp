@@ -284,6 +284,19 @@ TEST_CASE("widths above the means are short and do not overlap", "[report]") {
   CHECK_THAT(tics, !Catch::Contains("0001'"));
 }
 
+TEST_CASE("bars over the height end where no solid fraction or coordination number can be",
+          "[report]") {
+  std::vector<Row> rows;
+  for (const double phi : {0.25, 0.75}) {
+    rows.push_back(settled_row(std::to_string(rows.size()), 5, 0.6, 6));
+    rows.back().outcome->result.profile_z = {1.0, {{phi, 0, 10, 0, std::int64_t(80 * phi), 0}}};
+  }
+  const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});
+  const std::string& commands = figure_called(figures, "heights").commands;
+  CHECK_THAT(commands, Catch::Contains("set yrange [0:1]\n"));
+  CHECK_THAT(commands, !Catch::Contains("set yrange [-"));
+}
+
 TEST_CASE("densities of forces are drawn from the least to the largest that there is", "[report]") {
   std::vector<Row> rows = wall_rows();
   for (Row& row : rows) row.outcome->result.order.force_density = {0.5, {2.5, 0.25, 0, 0.125, 0}};
