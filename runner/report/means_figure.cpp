@@ -237,10 +237,20 @@ std::string abscissa_commands(const Axes& axes, bool is_lowest, bool is_highest)
          " offset 0,-0.6 noenhanced\n";
 }
 
+/// The means of the groups that have a place on the axis.
+Bars placed_bars(const Axes& axes, Quantity quantity) {
+  Axes placed = axes;
+  for (Series& series : placed.series) {
+    std::erase_if(series.groups,
+                  [&](const Group* group) { return std::isnan(abscissa(axes, *group)); });
+  }
+  return bars_of(placed, quantity);
+}
+
 /// Everything that the panel of a quantity shows, with its errors.
 std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>& all,
                                const std::vector<PublishedCurve>& curves, Quantity quantity) {
-  std::vector<double> heights = shown_ends(bars_of(axes, quantity));
+  std::vector<double> heights = shown_ends(placed_bars(axes, quantity));
   for (const FittedSeries& one : all) {
     const auto& fit = quantity == Quantity::solid_fraction ? one.phi : one.z;
     if (is_determined(fit)) heights.push_back(fit->bulk.value);
@@ -414,8 +424,8 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
                 .title = is_over_width(drawn) ? "What the walls cost"
                                               : "Solid fraction and coordination number",
                 .caption = "Means over the settled replicates" +
-                           bars_text({bars_of(drawn, Quantity::solid_fraction),
-                                      bars_of(drawn, Quantity::coordination)}) +
+                           bars_text({placed_bars(drawn, Quantity::solid_fraction),
+                                      placed_bars(drawn, Quantity::coordination)}) +
                            "."};
   std::vector<FittedSeries> all = fitted(drawn, families);
   if (!thinned_text(drawn, axes).empty()) thin_residuals(all);

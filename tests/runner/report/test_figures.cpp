@@ -221,6 +221,7 @@ TEST_CASE("a series that lacks what is along the axis is not in the key of the m
   for (const char* sides : {"3", "5", "8", ""}) {
     rows.push_back(settled_row(std::string("n") + sides, 5, 0.6, 5.0));
     const bool is_cube = sides[0] == '\0';
+    if (is_cube) rows.back().outcome->result.solid_fraction = 0.9;
     rows.back().job.label = is_cube ? "cubes" : "prisms";
     rows.back().job.parameters = R"({"shape":{)" +
                                  (is_cube ? std::string(R"("cube":{"edge":1)")
@@ -231,6 +232,7 @@ TEST_CASE("a series that lacks what is along the axis is not in the key of the m
   const Figure& means = figure_called(figures, "means");
   CHECK_THAT(means.caption, Catch::Contains("No point for cubes: without shape.prism.sides."));
   CHECK_THAT(means.commands, Catch::Contains("ls 1 title 'prisms'") && !Catch::Contains("'cubes'"));
+  CHECK_THAT(means.commands, Catch::Contains("set yrange [0.53:0.6"));  // 7 % of 1 about 0.6
 }
 
 TEST_CASE("a box beside tubes has its point although it has no diameter", "[report]") {
