@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "runner/report/axes.hpp"
@@ -35,6 +36,30 @@ int lines_of(std::size_t entries, std::size_t columns) {
 int height_with(int lines, int height) {
   constexpr int usual_lines = 2;
   return height + key_line * std::max(lines - usual_lines, 0);
+}
+
+/// "limestone 8/…, height = 0.5": an entry without room for it loses the end of its label, not of
+/// its values. One without values, or whose values leave no room, stays as it is.
+std::string with_short_label(const std::string& title) {
+  constexpr std::size_t shortest_label = 6;
+  const std::size_t label_end = title.find(", ");
+  if (characters(title) <= longest_entry || label_end == std::string::npos) return title;
+  const std::string label = title.substr(0, label_end), values = title.substr(label_end);
+  const std::size_t taken = characters(values);
+  const bool has_room = taken + shortest_label <= longest_entry;
+  if (!has_room || values.find(" = ") == std::string::npos) return title;
+  return shortened(label, longest_entry - taken) + values;
+}
+
+/// What stands in a key for these titles.
+std::vector<std::string> entries_of(const std::vector<std::string>& titles) {
+  std::vector<std::string> entries;
+  entries.reserve(titles.size());
+  for (const std::string& title : titles) entries.push_back(with_short_label(title));
+  const auto differing = [](const std::vector<std::string>& texts) {
+    return std::set<std::string>(texts.begin(), texts.end()).size();
+  };
+  return told_apart(differing(entries) == differing(titles) ? entries : titles, longest_entry);
 }
 
 }  // namespace
@@ -87,7 +112,7 @@ std::string Panels::key() const {
   std::string plots;
   std::vector<std::string> titles;
   for (const KeyEntry& entry : key_) titles.push_back(entry.title);
-  titles = told_apart(titles, longest_entry);
+  titles = entries_of(titles);
   for (std::size_t k = 0; k < key_.size(); ++k) {
     plots +=
         (k == 0 ? "" : ", ") + ("NaN with " + key_[k].style + " title ") + gnuplot_text(titles[k]);

@@ -105,6 +105,20 @@ TEST_CASE("long entries of a key keep their beginning and what tells them apart"
                  Catch::Contains("'glass beads with a c… second kind, batch 8'"));
 }
 
+TEST_CASE("long entries of a key lose the end of their label before that of their values",
+          "[report]") {
+  const auto key_of = [](const std::string& a, const std::string& b) {
+    Figure figure;
+    return Panels(figure, 1, {1.0}, {{"points ls 1", a}, {"points ls 2", b}}).key();
+  };
+  CHECK_THAT(key_of("limestone 8/16, shape = prism, height = 0.5", "b"),
+             Catch::Contains("'limestone 8/…, shape = prism, height = 0.5'"));
+  // Labels that would then be alike stay whole.
+  CHECK_THAT(key_of("limestone 8/16, shape = prism, height = 0.5",
+                    "limestone 8/32, shape = prism, height = 0.5"),
+             Catch::Contains("'limestone 8/16, shape = prism, height = 0…'"));
+}
+
 TEST_CASE("a figure grows with its key, so that its panels keep their height", "[report]") {
   const auto height_with = [](std::size_t entries) {
     Figure figure;
