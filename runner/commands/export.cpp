@@ -222,7 +222,7 @@ void add_command(CLI::App& app, ExportOptions& options) {
   CLI::App& grains = *app.add_subcommand("export", "Write the beds of finished packings");
   add_folder(grains, options.folder);
   grains.add_option("--format", options.format, formats_text())
-      ->check(CLI::IsMember(format_names()))
+      ->transform(CLI::IsMember(format_names(), CLI::ignore_case))
       ->capture_default_str()
       ->type_name("NAME");
   grains

@@ -37,11 +37,11 @@ std::string grading_csv(const Graded& groups, const GivenUnits& units) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const std::vector<SizeLine> lines = mean_sizes(*groups[k]);
     const auto add = [&](double diameter, double asked, const std::vector<std::string>& measured) {
-      std::vector<std::string> cells = {cell(k + 1), cell(groups[k]->number), cell(diameter),
+      std::vector<std::string> cells = {cell(k + 1), cell(groups[k]->number), short_cell(diameter),
                                         cell(asked)};
       cells.insert(cells.end(), measured.begin(), measured.end());
       cells.push_back(cell(title_of(*groups[k])));
-      if (units) cells.push_back(cell(units->d * diameter));
+      if (units) cells.push_back(short_cell(units->d * diameter));
       text += csv_line(cells);
     };
     const bool has_steps = !lines.empty() && lines.front().asked > 0.0;

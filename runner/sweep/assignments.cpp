@@ -58,6 +58,8 @@ std::string absence_of(const std::string& path) {
       {"a tube has a diameter; d is the mean diameter of the large grains",
        {"radius", "box.radius", "tube.radius"}},
       {"write \"diameter\", twice the radius", {"shape.cylinder.radius", "shape.prism.radius"}},
+      {"shape.cylinder.chord_error sets how many sides a cylinder has; a prism has \"sides\"",
+       {"shape.cylinder.sides"}},
       {"write \"height\"", {"shape.cylinder.length", "shape.prism.length"}},
       {"the mean diameter of the large grains is d, the unit of length",
        {"mean", "diameter", "sizes.mean", "sizes.diameter"}},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -24,18 +25,30 @@ struct SizeColumns {
   std::string_view kind;
 };
 
+/// Whether a cell of the header is this name, which is in lower case; spreadsheets write capitals.
+bool is_called(std::string_view cell, std::string_view name) {
+  return std::equal(cell.begin(), cell.end(), name.begin(), name.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == b; });
+}
+
+std::ptrdiff_t count_of(const LineCells& header, std::string_view name) {
+  return std::count_if(header.begin(), header.end(),
+                       [&](std::string_view cell) { return is_called(cell, name); });
+}
+
 std::optional<std::size_t> index_of(const LineCells& header, std::string_view name) {
-  const auto found = std::find(header.begin(), header.end(), name);
+  const auto found = std::find_if(header.begin(), header.end(),
+                                  [&](std::string_view cell) { return is_called(cell, name); });
   if (found == header.end()) return std::nullopt;
   return static_cast<std::size_t>(found - header.begin());
 }
 
 std::optional<SizeColumns> size_columns(const LineCells& header) {
   const auto diameter = index_of(header, "diameter");
-  if (!diameter || std::count(header.begin(), header.end(), "diameter") > 1) return std::nullopt;
+  if (!diameter || count_of(header, "diameter") > 1) return std::nullopt;
   std::optional<SizeColumns> columns;
   for (const std::string_view kind : kinds) {
-    const auto many = std::count(header.begin(), header.end(), kind);
+    const auto many = count_of(header, kind);
     if (many == 0) continue;
     if (many > 1 || columns) return std::nullopt;
     columns = SizeColumns{*diameter, *index_of(header, kind), kind};

@@ -17,7 +17,7 @@ Columns<GroupSizeLine> size_line_columns(const Varied& varied, const GivenUnits&
   Columns<Line> columns = columns_of_group<Line>(varied);
   append(columns, Columns<Line>{
                       {"diameter", "d", "shares are of the grains that are no larger",
-                       [](const Line& line) { return cell(line.line.diameter); }},
+                       [](const Line& line) { return short_cell(line.line.diameter); }},
                       {"asked", "", "share in the distribution, by what sizes.distribution.by says",
                        [](const Line& line) { return cell(line.line.asked); }},
                       {"n", "", "packings that enter the means",

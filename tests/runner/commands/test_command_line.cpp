@@ -68,6 +68,7 @@ TEST_CASE("options not given have their defaults") {
   CHECK_FALSE(options.fail_fast);
   CHECK(options.checkpoint_seconds == 60.0);
   CHECK(options_of<ExportOptions>(read({"export", "o"})).format == "csv");
+  CHECK(options_of<ExportOptions>(read({"export", "o", "--format", "STL"})).format == "stl");
 }
 
 TEST_CASE("a share of unsettled packings is tolerated as given, and without a number any share") {

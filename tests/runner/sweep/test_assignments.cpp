@@ -199,6 +199,10 @@ TEST_CASE("what is looked for inside base and stands at the top of the file is s
 }
 
 TEST_CASE("hints are the same for a dotted key") {
+  CHECK_THAT(
+      errors_in_base(R"({"shape": {"cylinder": {"sides": 32}}})").front(),
+      Catch::EndsWith("unknown key \"sides\"; shape.cylinder.chord_error sets how many sides "
+                      "a cylinder has; a prism has \"sides\""));
   CHECK(errors_in_base(R"({"shape.cylinder.radius": 1})") ==
         Messages{"s.json:2:2 /base/shape.cylinder.radius: unknown key \"shape.cylinder.radius\"; "
                  "write \"diameter\", twice the radius"});

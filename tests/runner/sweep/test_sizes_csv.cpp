@@ -25,6 +25,13 @@ TEST_CASE("a sieve curve is read from its columns in any order of columns and ro
   CHECK(reading.table.shares.empty());
 }
 
+TEST_CASE("the columns of a sieve curve may be named in capitals") {
+  const SizesReading reading = parse_sizes("Diameter, PASSING\n1,0\n2,1\n", "sieves.csv");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.table.passing == std::vector<double>{0, 1});
+  CHECK(parse_sizes("Diameter,diameter,passing\n1,1,0\n", "sieves.csv").errors.size() == 1);
+}
+
 TEST_CASE("shares of single diameters are read as such") {
   const SizesReading reading = parse_sizes("diameter,share\n1,0.3\n2,0.7\n", "sieves.csv");
   REQUIRE(reading.errors.empty());

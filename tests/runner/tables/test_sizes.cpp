@@ -60,6 +60,11 @@ TEST_CASE("the weight of a distribution is told by its parameters") {
   CHECK(size_weight(job) == "number");
 }
 
+TEST_CASE("diameters have no noise of the division by the length that is d") {
+  const std::vector<Row> rows = {row_with_sizes("a", {{22.4 / 20.0, 1, 1, 1}})};
+  CHECK_THAT(sizes_csv(analyse(rows).groups), Catch::Contains(",1.12,1,1,"));
+}
+
 TEST_CASE("diameters are told in the units of the sweep, too") {
   const std::vector<Row> rows = {row_with_sizes("a", {{0.5, 1, 1, 1}})};
   const std::vector<Group> groups = analyse(rows).groups;
