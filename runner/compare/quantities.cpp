@@ -37,9 +37,8 @@ Measured mean_of(const Family& /*family*/, const Group& group) {
 
 template <Quantity quantity>
 Measured unconfined(const Family& family) {
-  const Group* group = unconfined_reference(family);
-  if (group != nullptr) return mean_of<quantity>(family, *group);
-  return {{}, "the family has no settled packing with periodic y", ""};
+  if (family.unconfined) return mean_of<quantity>(family, *family.unconfined);
+  return {{}, "the sweep has no settled packing of these grains without walls", ""};
 }
 
 Measured fitted(const Family& family, const WallFit& fit, const Estimate& estimate) {

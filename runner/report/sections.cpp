@@ -111,9 +111,8 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
     cells.push_back("not determined: " + html_text(fit.not_determined));
     return cells;
   }
-  const Group* reference = unconfined_reference(family);
   const std::string unconfined =
-      reference == nullptr ? "-" : mean_text(spread_of(*reference, quantity), decimals);
+      !family.unconfined ? "-" : mean_text(spread_of(*family.unconfined, quantity), decimals);
   cells.insert(cells.end(), {with_error(fit.bulk.value, fit.bulk.error, decimals), unconfined});
   append_length(fit.slope, decimals - 1, units, cells);
   append_length(fit.zeta, 3, units, cells);

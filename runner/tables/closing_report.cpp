@@ -107,9 +107,8 @@ std::string table_text(const std::vector<TableLine>& lines) {
 }
 
 std::string reference_text(const Family& family, Quantity quantity, int decimals) {
-  const Group* group = unconfined_reference(family);
-  if (group == nullptr) return "";
-  const Spread& spread = spread_of(*group, quantity);
+  if (!family.unconfined) return "";
+  const Spread& spread = spread_of(*family.unconfined, quantity);
   return "; periodic " + with_error(spread.mean, spread.error, decimals);
 }
 

@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "engine/clusters.hpp"
 #include "engine/dynamics/presets.hpp"
 #include "runner/sweep/identity.hpp"
@@ -185,6 +187,44 @@ void sort_by_width(std::vector<Group>& groups) {
   });
 }
 
+/// The widest group of a family without any walls that has a settled packing.
+const Group* unconfined_of(const Family& family) {
+  const Group* widest = nullptr;
+  for (const Group& group : family.periodic) {
+    const bool is_unconfined = group.job.box.x == Boundary::periodic;
+    if (is_unconfined && group.counts.settled > 0) widest = &group;
+  }
+  return widest;
+}
+
+/// The parameters of a family that are not about its container or how much is filled in.
+std::string other_parameters(const Family& family) {
+  nlohmann::json parameters = nlohmann::json::parse(family.parameters);
+  for (const char* path : {"box", "tube", "fill"}) parameters.erase(path);
+  return parameters.dump();
+}
+
+double narrower_side(const Group& group) {
+  return std::min(group.job.box.length, group.job.box.width);
+}
+
+void find_unconfined(std::vector<Family>& families) {
+  std::map<std::string, const Group*> widest;  // by other_parameters
+  for (const Family& family : families) {
+    const Group* own = unconfined_of(family);
+    if (own == nullptr) continue;
+    const Group*& known = widest[other_parameters(family)];
+    if (known == nullptr || narrower_side(*own) > narrower_side(*known)) known = own;
+  }
+  if (widest.empty()) return;
+  for (Family& family : families) {
+    const Group* own = unconfined_of(family);
+    const auto other = own == nullptr ? widest.find(other_parameters(family)) : widest.end();
+    if (own == nullptr && other != widest.end()) own = other->second;
+    if (own != nullptr) family.unconfined = *own;
+  }
+}
+
 }  // namespace
 
 const Group& first_group(const Family& family) {
@@ -209,6 +249,7 @@ std::vector<Family> families_of(const std::vector<Group>& groups) {
   }
   for (Family& family : families) sort_by_width(family.walled), sort_by_width(family.periodic);
   name_families(families);
+  find_unconfined(families);
   return families;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,10 @@ struct Family {
   std::string name;           ///< both
   std::string parameters;     ///< canonical JSON without box.width and box.y
   std::vector<Group> walled;  ///< y walled, by ascending width
-  std::vector<Group> periodic;  ///< y periodic (the unconfined reference), by ascending width
+  std::vector<Group> periodic;  ///< y periodic, by ascending width
+  /// Without any walls and with a settled packing, the widest such: of its own, or, as tubes and
+  /// ducts have none, of another family that differs in nothing but its container and its fill.
+  std::optional<Group> unconfined;
 };
 
 /// Its first group between walls, or without.

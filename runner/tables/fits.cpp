@@ -128,8 +128,8 @@ struct FitLine {
 template <class Value>
 auto reference_cell(Value value) {
   return [=](const FitLine& line) {
-    const Group* group = unconfined_reference(line.family);
-    if (group == nullptr) return std::string();
+    const std::optional<Group>& group = line.family.unconfined;
+    if (!group) return std::string();
     return cell(value(*group, spread_of(*group, line.quantity)));
   };
 }
@@ -181,7 +181,10 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
               "share of the variance of the means that the line explains, both weighted by the "
               "points' errors",
               fit_cell(&WallFit::r_squared)},
-             {"biperiodic_width", "d", "of the widest box without walls, the reference",
+             {"biperiodic_width", "d",
+              "of the reference, the widest box without walls: of the family, or, if it has none, "
+              "as a tube, "
+              "of another one that differs in nothing but its container and its fill",
               reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
              {"biperiodic_mean", "", "the quantity there",
               reference_cell([](Reference /*group*/, Value at) { return at.mean; })},
@@ -268,15 +271,6 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
     fit.not_determined = "a mean value is not a number";
   }
   return fit;
-}
-
-const Group* unconfined_reference(const Family& family) {
-  const Group* widest = nullptr;
-  for (const Group& group : family.periodic) {
-    const bool is_unconfined = group.job.box.x == Boundary::periodic;
-    if (is_unconfined && group.counts.settled > 0) widest = &group;
-  }
-  return widest;
 }
 
 std::vector<ColumnText> fits_columns(const GivenUnits& units) {

@@ -57,9 +57,6 @@ struct WallFit {
 
 WallFit fit_walls(const Family& family, Quantity quantity);
 
-/// The widest group without any walls that has a settled packing: the value to compare `bulk` with.
-const Group* unconfined_reference(const Family& family);
-
 /// The whole file: two rows per family with walls.
 std::string fits_csv(const std::vector<Family>& families, const GivenUnits& units = {});
 

@@ -167,7 +167,7 @@ TEST_CASE("what a sweep lacks is not determined, with the reason") {
   CHECK(reason("phi", 5) == "needs 2 or more settled replicates to know the error");
   CHECK(reason("phi", 10) == "this family has no packings between walls at W = 10 d");
   CHECK(reason("phi", 5.5) == "this family has no packings between walls at W = 5.5 d");
-  CHECK(reason("Z_unconfined") == "the family has no settled packing with periodic y");
+  CHECK(reason("Z_unconfined") == "the sweep has no settled packing of these grains without walls");
   CHECK_THAT(reason("C"), Catch::Contains("3 or more widths"));
   CHECK_THAT(reason("zeta_difference"), Catch::Contains("3 or more widths"));
   CHECK_THAT(reason("lambda_by_number", 5), Catch::Contains("2 or more settled replicates"));

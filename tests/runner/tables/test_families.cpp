@@ -17,7 +17,7 @@ TEST_CASE("groups that differ in width alone are a family, with the periodic one
   CHECK(families[0].walled[0].job.box.width == 5);
   CHECK(families[0].walled[2].job.box.width == 20);
   REQUIRE(families[0].periodic.size() == 1);
-  CHECK(mean_of(*unconfined_reference(families[0]), "solid_fraction").mean == 0.64);
+  CHECK(mean_of(families[0].unconfined.value(), "solid_fraction").mean == 0.64);
 }
 
 TEST_CASE(
@@ -29,7 +29,7 @@ TEST_CASE(
   REQUIRE(families.size() == 1);
   REQUIRE(families[0].periodic.size() == 2);
   CHECK(families[0].periodic[0].job.box.width == 10);
-  CHECK(unconfined_reference(families[0])->job.box.width == 20);
+  CHECK(families[0].unconfined.value().job.box.width == 20);
 }
 
 TEST_CASE("families of one label are told apart by the parameter that differs") {
@@ -97,13 +97,41 @@ TEST_CASE("mixtures are told apart by the shares of their components, by the nam
   CHECK(families[1].name == "MSP cube=0.5 sphere=0.5");
 }
 
+TEST_CASE("tubes have the widest box without walls of the same grains as their reference") {
+  std::vector<Row> rows = {settled_row("a", 5, 0.55, 6), settled_row("b", 7, 0.57, 6),
+                           settled_row("c", 6, 0.63, 6, Boundary::periodic),
+                           settled_row("d", 9, 0.64, 6, Boundary::periodic),
+                           settled_row("e", 20, 0.7, 6, Boundary::periodic)};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    JobFacts& job = rows[k].job;
+    const std::string side = std::to_string(job.box.width);
+    const bool is_tube = k < 2, are_others = k == 4;
+    if (is_tube) job.box = tube_of(job.box.width);
+    if (!is_tube) job.box.length = job.box.width;
+    const std::string container =
+        is_tube ? R"("tube":{"diameter":)" + side + "}"
+                : R"("box":{"length":)" + side + R"(,"width":)" + side + R"(,"y":"periodic"})";
+    job.parameters = "{" + container + R"(,"fill":{"grains":)" + std::to_string(500 + k) +
+                     R"(},"sizes":{"spread":)" + (are_others ? "0.1" : "0.0") + "}}";
+  }
+  for (Row& row : rows) row.job.box.x = row.job.box.is_tube ? Boundary::walls : Boundary::periodic;
+  const auto families = families_of(groups_of(rows));
+  REQUIRE(families.size() >= 3);
+  REQUIRE(families[0].walled.size() == 1);  // as fills differ
+  for (const std::size_t tube : {0U, 1U}) {
+    REQUIRE(families[tube].unconfined);
+    CHECK(families[tube].unconfined->job.box.width == 9);
+    CHECK(families[tube].periodic.empty());
+  }
+}
+
 TEST_CASE("a periodic packing without a settled replicate is no reference") {
   Row row = row_with_status("a", 20, PackingStatus::not_settled, "moves");
   row.job.box.y = Boundary::periodic;
   const std::vector<Row> rows = {row};
   const auto families = families_of(groups_of(rows));
   REQUIRE(families.size() == 1);
-  CHECK(unconfined_reference(families[0]) == nullptr);
+  CHECK_FALSE(families[0].unconfined);
 }
 
 }  // namespace
