@@ -257,14 +257,16 @@ std::string fault_of_window(const Window& window, const VectorXd& centred, doubl
   return "the window from " + number_text(decay_window_start) + " d to " + number_text(window_end) +
          " d holds " + std::to_string(window.value.size()) + " bins of " + number_text(bin_width) +
          " d, a fit needs " + std::to_string(min_bins) +
-         "; make measure.bin_width smaller or the gap between the walls wider";
+         "; make measure.bin_width smaller or the container wider";
 }
 
 /// Why a converged curve does not determine a length; empty if it does.
 std::string fault_of_curve(const DecayFit& fit, double significance) {
   const double span = fit.window_end - decay_window_start;
-  const std::string length =
-      number_text(fit.length.value) + " +- " + number_text(fit.length.error) + " d";
+  constexpr double unbounded = 10.0;  // times the length
+  const bool has_bound = fit.length.error <= unbounded * fit.length.value;
+  const std::string error = has_bound ? " +- " + number_text(fit.length.error) + " d"
+                                      : " d, without a bound on its error,";
   if (!(significance >= min_significance)) {
     return "the oscillation is lost in the noise: its amplitude is " + number_text(significance) +
            " standard errors at the start of the window, " + number_text(min_significance) +
@@ -277,7 +279,8 @@ std::string fault_of_curve(const DecayFit& fit, double significance) {
     return "the layers do not decay within the window of " + number_text(span) + " d";
   }
   if (!(fit.length.error <= largest_relative_error * fit.length.value)) {
-    return "the length " + length + " is too uncertain; add replicates";
+    return "the length " + number_text(fit.length.value) + error +
+           " is too uncertain; add replicates";
   }
   if (!(fit.r_squared >= min_explained)) {
     return "a damped oscillation explains only " + number_text(fit.r_squared) + " of the variance";
@@ -343,6 +346,7 @@ double excess_of(const VectorXd& other, const VectorXd& best, const Window& wind
 std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima,
                      const Window& window, const std::vector<Window>& without_each) {
   constexpr double least_excess = 2.0;  // in errors
+  const double span = fit.window_end - decay_window_start;
   for (std::size_t k = 1; k < minima.size(); ++k) {
     const VectorXd &best = minima[0].p, &other = minima[k].p;
     const double length = std::exp(other[log_length]);
@@ -354,8 +358,13 @@ std::string rival_of(const DecayFit& fit, const std::vector<FittedCurve>& minima
       excess.emplace_back(VectorXd::Constant(1, excess_of(other, best, part)));
     }
     if (excess_of(other, best, window) < least_excess * widened_errors(excess)[0]) {
-      return "two lengths describe the layers as well: " + number_text(fit.length.value) +
-             " d and " + number_text(length) + " d; add replicates";
+      const std::string first =
+          "two lengths describe the layers as well: " + number_text(fit.length.value) + " d and ";
+      return first +
+             (length <= span
+                  ? number_text(length) + " d"
+                  : "one without a decay within the window of " + number_text(span) + " d") +
+             "; add replicates";
     }
   }
   return "";

@@ -177,7 +177,7 @@ TEST_CASE("pure noise, a flat profile and a short window determine nothing, and 
         "the solid fraction is the same in all bins");
   CHECK(fit_decay({profile_of(layers, 5), profile_of(layers, 5)}, bin_width, 1.0).not_determined ==
         "the window from 0.25 d to 1 d holds 8 bins of 0.1 d, a fit needs 10; make "
-        "measure.bin_width smaller or the gap between the walls wider");
+        "measure.bin_width smaller or the container wider");
 }
 
 // All have the same layers, but so much stronger in one profile than in the other that their mean
