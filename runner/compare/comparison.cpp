@@ -70,7 +70,7 @@ std::string along_text(const Comparison& row) {
   if (by_bound > 0) text += joined(", at ", by_bound, " of them within the bound of settling");
   if (known > 0 && unknown > 0) text += joined(", no error at ", unknown, " more");
   if (row.without_value > 0) text += joined(", no value at ", row.without_value, " more");
-  text += "; here less published: ";
+  text += "; here minus published: ";
   const std::string symbol = symbol_of_formula(row.published.formula->text);
   if (along.size() == 1) return text + difference_text(*least, symbol);
   return text + signed_text(mean) + " in the mean, " + difference_text(*least, symbol) + " to " +
@@ -125,7 +125,12 @@ std::string left_out_text(const Reference& reference, const std::vector<Family>&
     text += "\n";
     for (const auto& [path, value] : entry.where) {
       const std::string advice = advice_on(path);
-      if (!advice.empty()) text.append("  ").append(advice + "\n");
+      const std::string values = values_in(families, path);
+      if (!advice.empty()) {
+        text.append("  ").append(advice + "\n");
+      } else if (!values.empty()) {
+        text.append("  the sweep has " + path + " ").append(values + "\n");
+      }
     }
   }
   return text;

@@ -30,7 +30,7 @@ struct Comparison {
   std::size_t without_value = 0;  ///< how many more there are where one of them is not
 };
 
-/// Measured less published value, from the nearer end of a range and 0 inside it; nothing if
+/// Measured minus published value, from the nearer end of a range and 0 inside it; nothing if
 /// either is missing.
 std::optional<double> difference(const Comparison& comparison);
 

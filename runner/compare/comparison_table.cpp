@@ -79,7 +79,7 @@ Columns<Comparison> measured_columns() {
        "how far it lies at most from that of beds settled ever better; 0 if not "
        "measured",
        measured_cell(&Measured::bias_bound)},
-      {"difference", "", "measured less published, from the nearer end of a range and 0 inside it",
+      {"difference", "", "measured minus published, from the nearer end of a range and 0 inside it",
        number_cell(difference)},
       {"relative_difference", "", "difference over published; empty for a range",
        number_cell(relative_difference)},

@@ -221,6 +221,19 @@ bool is_of_accuracy(const std::string& path) {
   return path == "accuracy" || path == "accuracy.preset";
 }
 
+/// What a family has at `path`, as `describes` compares it; an accuracy may have two names.
+/// `known`: its parameters by their JSON pointers.
+std::vector<std::string> values_at(const std::string& path, const Family& family,
+                                   const json& known) {
+  const JobFacts& job = first_group(family).job;
+  if (path == "shape") return {plain(job.shape)};
+  if (is_of_accuracy(path)) return {plain(job.accuracy), plain(job.settles_as)};
+  std::string pointer = "/" + path;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  if (!known.contains(pointer)) return {};
+  return {plain(known[pointer])};
+}
+
 /// Names that families are told apart by, as a parameter.
 Parameter named(std::vector<std::string> names) {
   return {.path = "name", .meaning = "", .kind = ValueKind::choice, .choices = std::move(names)};
@@ -364,18 +377,30 @@ std::string reference_beside(const std::string& sweep_file) {
 }
 
 bool describes(const PublishedFamily& published, const Family& family) {
-  const JobFacts& job = first_group(family).job;
   const json known = json::parse(family.parameters).flatten();
   return std::all_of(published.where.begin(), published.where.end(), [&](const auto& entry) {
-    const auto& [path, value] = entry;
-    if (path == "shape") return value == plain(job.shape);
-    if (is_of_accuracy(path)) {
-      return value == plain(job.accuracy) || value == plain(job.settles_as);
-    }
-    std::string pointer = "/" + path;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    return known.contains(pointer) && plain(known[pointer]) == value;
+    const std::vector<std::string> own = values_at(entry.first, family, known);
+    return std::find(own.begin(), own.end(), entry.second) != own.end();
   });
+}
+
+std::string values_in(const std::vector<Family>& families, const std::string& path) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> values;
+  for (const Family& family : families) {
+    for (const std::string& value :
+         values_at(path, family, json::parse(family.parameters).flatten())) {
+      if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+    }
+  }
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, values.size()); ++k) {
+    text += (k == 0 ? "" : ", ") + values[k];
+  }
+  if (values.size() > most) text += " and " + std::to_string(values.size() - most) + " more";
+  const auto known = find_parameter(path);
+  const std::string unit = known ? parameters()[*known].unit : "";
+  return text.empty() || unit.empty() ? text : text + " " + unit;
 }
 
 std::string advice_on(const std::string& path) {

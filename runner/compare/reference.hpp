@@ -67,6 +67,9 @@ std::string reference_beside(const std::string& sweep_file);
 /// name of its shape, and by that of the preset that it settles as.
 bool describes(const PublishedFamily& published, const Family& family);
 
+/// What families have at `path`, as `where` has it, with its unit: "1.1, 1.2 d"; "" if nothing.
+std::string values_in(const std::vector<Family>& families, const std::string& path);
+
 /// What to write in `where` in place of a parameter that families do not have, since their packings
 /// differ in it; "" for any other path.
 std::string advice_on(const std::string& path);

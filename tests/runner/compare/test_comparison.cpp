@@ -119,6 +119,18 @@ TEST_CASE("what a sweep lacks is not determined and never a number") {
   CHECK(comparison_text(reference(), analysis).find("nan") == std::string::npos);
 }
 
+TEST_CASE("of a family that is not in the sweep the table says what the sweep has instead") {
+  Reference other_share;
+  other_share.families = {{{{"sizes.small_share", "0.3"}}, {}}};
+  const std::vector<Row> sweep = wall_sweep_of_three_families();
+  CHECK_THAT(comparison_text(other_share, analyse(sweep)),
+             Catch::Contains("\nNot in the sweep: sizes.small_share=0.3\n"
+                             "  the sweep has sizes.small_share 0.0, 0.25"));
+  Reference of_ratio;
+  of_ratio.families = {{{{"sizes.size_ratio", "0.3"}}, {}}};
+  CHECK_THAT(comparison_text(of_ratio, analyse(sweep)), !Catch::Contains("the sweep has"));
+}
+
 TEST_CASE("of a family that is described by its width the table says what to write instead") {
   Reference by_width;
   by_width.families = {{{{"box.width", "5.0"}}, {}}};
@@ -170,17 +182,18 @@ TEST_CASE("the table says at how many widths a formula agrees, and how far it is
   };
   CHECK_THAT(
       text_of(with_formula("0.64 - 0.2/W")),
-      Catch::Contains("  0.64 - 0.2/W\n      agrees at 3 of 3 widths; here less published: "
+      Catch::Contains("  0.64 - 0.2/W\n      agrees at 3 of 3 widths; here minus published: "
                       "0.0000 in the mean, ") &&
           Catch::Contains(
               "\n      published: by hand\n      here, at the last: exact solid volume from "));
   CHECK_THAT(text_of(with_formula("0.64 - 0.3/W")),
-             Catch::Contains("agrees at 0 of 3 widths; here less published: +0.0117 in the mean, "
+             Catch::Contains("agrees at 0 of 3 widths; here minus published: +0.0117 in the mean, "
                              "+0.0050 at W = 20 d to +0.0200 at W = 5 d\n"));
   CHECK_THAT(text_of(with_formula("0.64 - 0.3/W", 0, 1e9, 0.02)),
              Catch::Contains("agrees at 3 of 3 widths"));
-  CHECK_THAT(text_of(with_formula("0.64 - 0.3/W", 18, 20)),
-             Catch::Contains("agrees at 0 of 1 width; here less published: +0.0050 at W = 20 d\n"));
+  CHECK_THAT(
+      text_of(with_formula("0.64 - 0.3/W", 18, 20)),
+      Catch::Contains("agrees at 0 of 1 width; here minus published: +0.0050 at W = 20 d\n"));
   CHECK_THAT(
       text_of(with_formula("0.64 - 0.2/W", 30, 40)),
       Catch::Contains("not determined: this family has no packings at a W where it holds\n"));
@@ -195,9 +208,9 @@ TEST_CASE("widths where a formula has no number, or no share of a volume, are to
     return comparison_text(with_formula(formula, 0, 1e9, 0, quantity), analyse(sweep));
   };
   CHECK_THAT(text_of("0.6 + 0*sqrt(W - 7)", "phi"),
-             Catch::Contains("of 2 widths, no value at 1 more; here less published: "));
+             Catch::Contains("of 2 widths, no value at 1 more; here minus published: "));
   CHECK_THAT(text_of("1.5 - 10/W", "porosity"),  // -0.5, 0.5 and 1
-             Catch::Contains("of 2 widths, no value at 1 more; here less published: "));
+             Catch::Contains("of 2 widths, no value at 1 more; here minus published: "));
   CHECK_THAT(text_of("60 - 1/W", "phi"),
              Catch::Contains("not determined: at no W where it holds are both the formula's value "
                              "and the measured one known\n"));
@@ -209,7 +222,7 @@ TEST_CASE("single packings are set beside a formula, too, without a verdict") {
     rows.push_back(settled_row(std::to_string(rows.size()), width, 0.6, 5));
   }
   CHECK_THAT(comparison_text(with_formula("0.59 + 0/W"), analyse(rows)),
-             Catch::Contains("no error is known at any width; here less published: +0.0100 in the "
+             Catch::Contains("no error is known at any width; here minus published: +0.0100 in the "
                              "mean, "));
   CHECK_THAT(comparison_text(with_formula("5 + 0/W", 0, 1e9, 0, "reach"), analyse(rows)),
              Catch::Contains("not determined: at no W"));
@@ -235,7 +248,7 @@ TEST_CASE("values that differ by no more than the bound of settling agree, which
   const std::vector<Row> sweep = wall_sweep();  // of spheres at `balanced`: 0.0020
   const std::string bounded = comparison_text(with_formula("0.6452 - 0.2/W"), analyse(sweep));
   CHECK_THAT(bounded, Catch::Contains("agrees at 3 of 3 widths, at ") &&
-                          Catch::Contains(" of them within the bound of settling; here less "
+                          Catch::Contains(" of them within the bound of settling; here minus "
                                           "published: -0.0052 in the mean"));
   const std::vector<Row> unknown = without_bound(sweep);
   CHECK_THAT(comparison_text(with_formula("0.6452 - 0.2/W"), analyse(unknown)),
