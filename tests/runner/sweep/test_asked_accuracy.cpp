@@ -60,7 +60,7 @@ TEST_CASE("each bed has the preset that its own kind takes") {
 
 TEST_CASE("what is asked for may be varied, and replaces a preset of the base, as a preset it") {
   CHECK(ids_in(R"({"name": "a", "base": {"accuracy": "accurate"},
-                   "sweep": [{"grid": {"accuracy.coordination": [0.1, 0.07]}}]})") ==
+                   "sweep": [{"grid": {"accuracy.coordination": [0.1, 0.05]}}]})") ==
         ids_in(R"({"name": "a", "sweep": [{"grid": {"accuracy": ["fast", "balanced"]}}]})"));
   CHECK(ids_in(R"({"name": "a", "base": {"accuracy": {"coordination": 0.02}},
                    "sweep": [{"set": {"accuracy": "fast"}}]})") ==
@@ -96,7 +96,7 @@ TEST_CASE("what no preset keeps is refused with the smallest bound that can be h
   const std::string both = R"({"solid_fraction": 0.0013, "coordination": 0.01})";
   CHECK(errors_of(R"({"name": "a", "base": {"accuracy": )" + both + "}}") ==
         std::vector<std::string>{
-            "s.json:1:79 /base/accuracy/coordination: must be at least 0.02, the smallest bound "
+            "s.json:1:79 /base/accuracy/coordination: must be at least 0.014, the smallest bound "
             "that was measured of spheres of one size by presets that keep the other one, by "
             "\"accurate\"; is 0.01"});
 }

@@ -23,7 +23,7 @@ TEST_CASE("each preset that was chosen is told with its bounds and what was aske
               pinacoids + "}]}") ==
       "Accuracy of 2 parameter sets of spheres of one size: \"fast\", the cheapest preset that "
       "moves means by no more than 0.0055 in solid fraction; its bounds: 0.003 in solid fraction, "
-      "0.072 in coordination\n"
+      "0.056 in coordination\n"
       "Accuracy of 1 parameter set of pinacoids 1 by 1 by 1: \"balanced\", the cheapest preset "
       "that moves means by no more than 0.0055 in solid fraction, 0.1 in coordination; its bounds: "
       "0.003 in solid fraction, 0.082 in coordination\n");
