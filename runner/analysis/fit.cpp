@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -110,6 +111,18 @@ std::optional<LineFit> fit_scattered_line(const std::vector<LinePoint>& points) 
   fit.chi2 = plain->chi2;
   fit.scatter = std::sqrt(variance);
   return fit;
+}
+
+std::vector<bool> widths_on_line(const std::vector<LineWidth>& widths) {
+  std::set<double> wide;
+  for (const LineWidth& one : widths) {
+    if (!one.is_narrow) wide.insert(one.width);
+  }
+  const bool takes_narrow = wide.size() < least_widths_of_line;
+  std::vector<bool> are_on_line;
+  are_on_line.reserve(widths.size());
+  for (const LineWidth& one : widths) are_on_line.push_back(takes_narrow || !one.is_narrow);
+  return are_on_line;
 }
 
 bool may_hold(const Misfit& misfit) {

@@ -14,6 +14,7 @@
 // smallest error alone.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -53,6 +54,18 @@ struct Misfit {
 /// Per degree of freedom that is 7.9 for one, 5.3 for two, 2.9 for seven if errors are known as
 /// they are; 12, 9.3 and 6.9 if they are known from 6 degrees of freedom.
 bool may_hold(const Misfit& misfit);
+
+/// A width of a container, and whether no line over one over the width need hold there.
+struct LineWidth {
+  double width = 0.0;  ///< d
+  bool is_narrow = false;
+};
+
+/// A line needs that many different widths.
+inline constexpr std::size_t least_widths_of_line = 3;
+
+/// Which of these a line is fitted to: narrow ones only where too few others are left.
+std::vector<bool> widths_on_line(const std::vector<LineWidth>& widths);
 
 /// Nothing if the points do not determine a line with errors: fewer than three points, fewer than
 /// two different x, or an error that is not positive and finite.

@@ -43,9 +43,8 @@ Measured unconfined(const Family& family) {
 
 Measured fitted(const Family& family, const WallFit& fit, const Estimate& estimate) {
   return {estimate, fit.not_determined,
-          "line in 1/" + extent_symbol(family.walled) + " over " + std::to_string(fit.widths) +
-              " widths, χ²/dof " + fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") +
-              fit.doubt};
+          "line in 1/" + extent_symbol(family.walled) + " over " + widths_text(fit) + ", χ²/dof " +
+              fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") + fit.doubt};
 }
 
 template <Quantity quantity>

@@ -82,18 +82,19 @@ class Round {
     for (const auto& [mean, outcomes] : made) {
       means_[mean] = means_of(outcomes, static_cast<int>(outcomes.size()));
     }
+    find_line();
     for (std::size_t k = 0; k < groups.size(); ++k) {
       volumes_.try_emplace(groups[k].mean, volume_of(k));
-      if (groups[k].is_walled && settled_[k] > 0) widths_[groups[k].mean] = groups[k].width;
+      if (are_on_line_[k] && settled_[k] > 0) widths_[groups[k].mean] = groups[k].width;
     }
     moderate(&Means::solid_fraction);
     moderate(&Means::coordination);
     for (std::size_t k = 0; k < groups.size(); ++k) {
-      if (groups[k].is_walled && settled_[k] > 0) add_to(design_, k, settled_[k]);
+      if (are_on_line_[k] && settled_[k] > 0) add_to(design_, k, settled_[k]);
     }
     std::set<double> widths;
     for (const auto& [mean, width] : widths_) widths.insert(width);
-    has_widths_ = widths.size() >= 3;
+    has_widths_ = widths.size() >= least_widths_of_line;
     has_line_ = has_widths_ && std::any_of(means_.begin(), means_.end(), [](const auto& one) {
                   return one.second.solid_fraction.degrees_of_freedom > 0.0;
                 });
@@ -164,6 +165,19 @@ class Round {
   }
 
  private:
+  /// Which groups are on the line, as fits.csv has it: of widths where something settles.
+  void find_line() {
+    std::vector<LineWidth> widths;
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      const bool may_be = groups_[k].is_walled && settled_[k] > 0;
+      widths.push_back({groups_[k].width, groups_[k].is_narrow || !may_be});
+    }
+    are_on_line_ = widths_on_line(widths);
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      are_on_line_[k] = are_on_line_[k] && groups_[k].is_walled;
+    }
+  }
+
   /// Of the slab of a group's packings, d^3; NaN if none has settled.
   double volume_of(std::size_t k) const {
     return groups_[k].floor_area * means_.at(groups_[k].mean).slab_height.mean;
@@ -214,7 +228,8 @@ class Round {
 
   /// Whether packings may be added to a group.
   bool goes_on(std::size_t k) const {
-    return groups_[k].may_grow && !settle_too_seldom(settled_[k], replicates_[k]);
+    return groups_[k].may_grow && (are_on_line_[k] || settled_[k] == 0) &&
+           !settle_too_seldom(settled_[k], replicates_[k]);
   }
 
   int most(std::size_t k) const {
@@ -242,6 +257,7 @@ class Round {
   const std::vector<FitGroup>& groups_;
   const std::vector<int>& replicates_;
   std::vector<int> settled_;               ///< of each group
+  std::vector<bool> are_on_line_;          ///< of each group
   std::map<std::size_t, Means> means_;     ///< of groups.csv
   std::map<std::size_t, double> volumes_;  ///< of their slabs, d^3
   std::map<std::size_t, double> widths_;   ///< of those on the line, d

@@ -11,9 +11,11 @@
 #include <utility>
 
 #include "engine/dynamics/presets.hpp"
+#include "runner/analysis/fit.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_fits.hpp"
 #include "runner/jobs/replicate_means.hpp"
+#include "runner/sweep/bed_kind.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/tables/job_facts.hpp"
 #include "runner/tables/packing_names.hpp"
@@ -64,15 +66,25 @@ FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
           job.spec.box.floor_area(),
           walled,
           walled && job.fit_wish.is_given(),
-          made_of(whole, group, outcomes)};
+          made_of(whole, group, outcomes),
+          is_narrow(job.spec.box)};
 }
 
-/// The largest bounds of the bias of settling among the groups of a fit; nothing if one has none.
+/// The largest bounds of the bias of settling among the groups of a fit, but for narrow ones that
+/// its line leaves out; nothing if one has none.
 std::optional<ProtocolBias> bound_of_fit(const Sweep& whole, const std::vector<Places>& groups,
                                          const GrowingFamily& family) {
-  ProtocolBias largest;
+  std::vector<LineWidth> widths;
   for (const std::size_t k : family.groups) {
-    const auto bound = bound_of(whole.jobs[groups[k].front()]);
+    const Job& job = whole.jobs[groups[k].front()];
+    widths.push_back({job.spec.box.width, is_narrow(job.spec.box) || !is_walled(job)});
+  }
+  const std::vector<bool> are_on_line = widths_on_line(widths);
+  ProtocolBias largest;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    const Job& job = whole.jobs[groups[family.groups[i]].front()];
+    if (!are_on_line[i] && is_walled(job)) continue;
+    const auto bound = bound_of(job);
     if (!bound) return std::nullopt;
     largest.solid_fraction = std::max(largest.solid_fraction, bound->solid_fraction);
     largest.coordination = std::max(largest.coordination, bound->coordination);
@@ -192,7 +204,7 @@ void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
   }
   const std::string place = place_of("fit", whole, *asking);
   const std::string start = "cannot be had of \"" + asking->label + "\": ";
-  if (widths.size() < 3) {
+  if (widths.size() < least_widths_of_line) {
     diagnostics.push_back({place, start +
                                       "a fit takes 3 or more widths between walls with otherwise "
                                       "equal parameters, and there are " +

@@ -386,6 +386,17 @@ std::string fits_text(const std::vector<FittedSeries>& all) {
   return text;
 }
 
+/// Which lines leave out narrow containers.
+std::string narrow_text(const std::vector<FittedSeries>& all) {
+  std::string names;
+  for (const FittedSeries& one : all) {
+    if (!one.phi || one.phi->narrow_widths == 0) continue;
+    names += (names.empty() ? "" : "; ") + one.series->name;
+  }
+  if (names.empty()) return "";
+  return " Lines leave out narrow containers (W below 4 d, ducts and tubes 5 d): " + names + ".";
+}
+
 /// Which lines are in doubt and why, each doubt once.
 std::string doubts_text(const std::vector<FittedSeries>& all) {
   NamesByReason names_by_doubt;
@@ -449,8 +460,8 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
     figure.tables.emplace_back(published_table, curves_csv(curves));
   }
   if (is_over_width(drawn)) figure.caption += places_text(drawn);
-  figure.caption +=
-      lacking_text(drawn) + fits_text(all) + grey_series_text(drawn) + thinned_text(drawn, axes);
+  figure.caption += lacking_text(drawn) + fits_text(all) + narrow_text(all) +
+                    grey_series_text(drawn) + thinned_text(drawn, axes);
   figure.tables.insert(figure.tables.begin(), {points_table, points_csv(drawn)});
   figure.commands = means_commands(drawn, figure, all, curves, has_fits);
   return figure;

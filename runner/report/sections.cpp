@@ -104,8 +104,10 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
   const bool is_phi = quantity == Quantity::solid_fraction;
   const int decimals = is_phi ? 4 : 3;
   const WallFit fit = fit_walls(family, quantity);
-  std::vector<std::string> cells = {html_text(family.name), is_phi ? "φ" : "Z",
-                                    std::to_string(fit.widths)};
+  std::vector<std::string> cells = {
+      html_text(family.name), is_phi ? "φ" : "Z",
+      std::to_string(fit.widths) +
+          (fit.narrow_widths > 0 ? " of " + std::to_string(fit.widths + fit.narrow_widths) : "")};
   if (!fit.not_determined.empty()) {
     cells.insert(cells.end(), units ? 7 : 5, "-");
     cells.push_back("not determined: " + html_text(fit.not_determined));

@@ -180,7 +180,14 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
                                              "most solver iterations per step at rest, or 1.5 for "
                                              "each mean diameter of height if that "
-                                             "is more; spheres take up to twice as many"),
+                                             "is more; spheres take up to twice as many")};
+}
+
+/// What a bed at rest keeps.
+Rows rest_rows() {
+  using S = PackingSpec;
+  using A = Accuracy;
+  return {
       in("m g",
          row<&S::accuracy, &A::residual_tolerance>("accuracy.residual_tolerance", positive,
                                                    "worst residual of the last step at rest, m g")),
@@ -227,7 +234,7 @@ Rows measure_rows() {
 Rows all_rows() {
   Rows all;
   for (Rows rows : {shape_parameters(), container_rows(), fill_rows(), size_parameters(),
-                    accuracy_rows(), measure_rows()}) {
+                    accuracy_rows(), rest_rows(), measure_rows()}) {
     for (Parameter& parameter : rows) all.push_back(std::move(parameter));
   }
   all.push_back(own("seed", WrittenValues{}, "master seed of the random numbers; in blocks only",

@@ -120,7 +120,7 @@ std::string protocol_text(const WallFit& fit, int decimals) {
 /// How good the line is, in brackets.
 std::string quality_text(const WallFit& fit) {
   return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
-         std::to_string(fit.widths) + " widths)";
+         widths_text(fit) + ")";
 }
 
 /// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.

@@ -13,17 +13,34 @@
 namespace grainsweep {
 namespace {
 
-std::vector<const Group*> groups_with_values(const Family& family) {
+/// Those with a settled packing; and which of them the line goes through.
+struct FittedGroups {
+  std::vector<const Group*> on_line;
+  std::set<double> left_out;  ///< narrow widths, d
+};
+
+FittedGroups groups_of_fit(const Family& family) {
   std::vector<const Group*> groups;
+  std::vector<LineWidth> widths;
   for (const Group& group : family.walled) {
-    if (group.counts.settled > 0) groups.push_back(&group);
+    if (group.counts.settled == 0) continue;
+    groups.push_back(&group);
+    widths.push_back({group.job.box.width, is_narrow(group.job.box)});
   }
-  return groups;
+  const std::vector<bool> are_on_line = widths_on_line(widths);
+  FittedGroups fitted;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (are_on_line[k])
+      fitted.on_line.push_back(groups[k]);
+    else
+      fitted.left_out.insert(widths[k].width);
+  }
+  return fitted;
 }
 
 std::string why_not_determined(const std::vector<const Group*>& groups, Quantity quantity,
                                int widths) {
-  if (widths < 3) {
+  if (widths < static_cast<int>(least_widths_of_line)) {
     return "needs settled packings at 3 or more widths with otherwise equal parameters, has " +
            std::to_string(widths);
   }
@@ -144,8 +161,12 @@ Columns<FitLine> fit_status_columns() {
       fit_status_column<FitLine>(),
       {"reason", "", "why it is not determined, or not to be trusted",
        [](Line line) { return cell(line.fit.not_determined + line.fit.doubt); }},
-      {"widths", "", "different widths with a settled packing",
+      {"widths", "", "different widths of the line, with a settled packing",
        [](Line line) { return cell(line.fit.widths); }},
+      {"narrow_widths", "",
+       "others that it leaves out, as no line need hold in narrow containers (W below 4 d, ducts "
+       "and tubes 5 d): none where fewer than three wider ones are left",
+       [](Line line) { return cell(line.fit.narrow_widths); }},
       {"packings", "", "settled packings behind them",
        [](Line line) { return cell(line.fit.packings); }},
       {"weights", "", "what the errors of the points are",
@@ -248,9 +269,17 @@ const Spread& spread_of(const Group& group, Quantity quantity) {
   return mean_of(group, name_of(quantity));
 }
 
+std::string widths_text(const WallFit& fit) {
+  std::string text = std::to_string(fit.widths) + " widths";
+  if (fit.narrow_widths == 0) return text;
+  return text + ", " + std::to_string(fit.narrow_widths) + " narrow " +
+         (fit.narrow_widths == 1 ? "one" : "ones") + " left out";
+}
+
 WallFit fit_walls(const Family& family, Quantity quantity) {
-  const std::vector<const Group*> groups = groups_with_values(family);
+  const auto [groups, left_out] = groups_of_fit(family);
   WallFit fit;
+  fit.narrow_widths = static_cast<int>(left_out.size());
   fit.points = points_of(groups, quantity);
   std::set<double> widths;
   std::vector<LinePoint> points;

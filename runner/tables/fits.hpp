@@ -6,7 +6,8 @@
 // alone would let chance decide which widths count. The errors of a fit follow from those, times
 // sqrt(chi2 per degree of freedom) where that exceeds 1: a line that misses its points by more than
 // their errors is known no better than it misses them. A fit that the packings do not support is
-// "not determined", with the reason, and has no numbers.
+// "not determined", with the reason, and has no numbers. Narrow containers, where layers fit or do
+// not, are left out if there are three wider ones.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,8 @@ struct FitPoint {
 
 struct WallFit {
   std::string not_determined;  ///< why there is no fit; empty if there is one
-  int widths = 0;              ///< different W with a settled packing
+  int widths = 0;              ///< different W of the line, with a settled packing
+  int narrow_widths = 0;       ///< others that it leaves out, as no line need hold there
   int packings = 0;            ///< settled packings behind them
   std::string doubt;           ///< why the line may be none; empty if it holds
   std::string weights;         ///< what the errors of the points are
@@ -56,6 +58,9 @@ struct WallFit {
 };
 
 WallFit fit_walls(const Family& family, Quantity quantity);
+
+/// "5 widths", "5 widths, 2 narrow ones left out".
+std::string widths_text(const WallFit& fit);
 
 /// The whole file: two rows per family with walls.
 std::string fits_csv(const std::vector<Family>& families, const GivenUnits& units = {});

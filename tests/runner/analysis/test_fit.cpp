@@ -145,6 +145,15 @@ TEST_CASE("errors known from few values make more of a misfit chance") {
   CHECK_FALSE(may_hold({1.001 * many, 2, 1e6}));
 }
 
+TEST_CASE("a line goes through narrow containers only where three others are not left") {
+  CHECK(widths_on_line({{2, true}, {4, false}, {5, false}, {6, false}}) ==
+        std::vector<bool>{false, true, true, true});
+  CHECK(widths_on_line({{2, true}, {5, false}, {6, false}, {6, false}}) ==
+        std::vector<bool>{true, true, true, true});  // two widths
+  CHECK(widths_on_line({{2, true}, {3, true}}) == std::vector<bool>{true, true});
+  CHECK(widths_on_line({}).empty());
+}
+
 TEST_CASE("a constant y has a fit but no share of variance to explain") {
   const auto fit = fit_line({{1, 2, 1}, {2, 2, 1}, {3, 2, 1}});
   REQUIRE(fit);

@@ -128,10 +128,10 @@ std::vector<Left> left_on_grains(const ExportedBed& exported) {
   return left;
 }
 
-/// Of a bed of `accurate`: what the last step leaves is on the mean what the preset allows.
+/// What the last step leaves is on the mean what the preset allows.
 void check_balance(const ShapeSpec& shape, const Box& box) {
-  const ExportedBed exported = packed_bed(shape, box, 90, "accurate");
-  const double of_last_step = preset("accurate")->imbalance_tolerance;
+  const ExportedBed exported = packed_bed(shape, box, 90, "balanced");
+  const double of_last_step = preset("balanced")->imbalance_tolerance;
   double force = 0, moment = 0;
   const auto left = left_on_grains(exported);
   for (const Left& one : left) force += one.force.norm(), moment += one.moment.norm();

@@ -94,6 +94,23 @@ TEST_CASE("each width has six packings before anything counts, and none more if 
   CHECK(called.is_met);
 }
 
+TEST_CASE("narrow widths that the line leaves out keep their first packings, and decide nothing") {
+  SampleFamily wide({4, 6, 12}, 10000), with_narrow({4, 6, 12, 2}, 10000);
+  with_narrow[3].is_narrow = true;
+  const FitWish wish{0.002, 0, 0, 0};
+  auto replicates = grown(wide, wish, {}, alternating).replicates;
+  replicates.push_back(6);
+  const CalledFit called = grown(with_narrow, wish, {}, alternating);
+  CHECK(called.is_met);
+  CHECK(called.replicates[3] == 6);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(called.replicates[k] == Approx(replicates[k]).epsilon(0.05));
+  }
+  SampleFamily needed({4, 12, 2}, 10000);  // without it there is no line
+  needed[2].is_narrow = true;
+  CHECK(grown(needed, wish, {}, alternating).replicates[2] > 6);
+}
+
 TEST_CASE(
     "packings go to both ends, of a bulk value as 1 / W of the other end, of a slope evenly") {
   // The variance at x = 0 of a line through two points is x2^2 / n1 + x1^2 / n2 over (x2 - x1)^2,
