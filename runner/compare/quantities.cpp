@@ -42,9 +42,11 @@ Measured unconfined(const Family& family) {
 }
 
 Measured fitted(const Family& family, const WallFit& fit, const Estimate& estimate) {
+  const std::string left_out = fit.narrow_widths > 0 ? ", " + left_out_text(fit) : "";
   return {estimate, fit.not_determined,
-          "line in 1/" + extent_symbol(family.walled) + " over " + widths_text(fit) + ", χ²/dof " +
-              fixed(fit.chi2_per_dof, 1) + (fit.doubt.empty() ? "" : ": ") + fit.doubt};
+          "line in 1/" + extent_symbol(family.walled) + " over " + std::to_string(fit.widths) +
+              " widths" + left_out + ", χ²/dof " + fixed(fit.chi2_per_dof, 1) +
+              (fit.doubt.empty() ? "" : ": ") + fit.doubt};
 }
 
 template <Quantity quantity>

@@ -266,6 +266,15 @@ std::vector<double> heights_of(const Axes& axes, const std::vector<FittedSeries>
   return heights;
 }
 
+/// Where on d / W a line is drawn: not where containers are that it leaves out.
+std::string range_of_line(const WallFit& fit) {
+  if (fit.narrow_widths == 0) return "x >= 0";
+  double end = 0.0;
+  for (const FitPoint& point : fit.points) end = std::max(end, 1.0 / point.width);
+  constexpr double beyond = 1.05;  // the last point
+  return "x >= 0 && x <= " + cell(beyond * end);
+}
+
 std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
                        const std::vector<PublishedCurve>& curves, Quantity quantity) {
   const bool is_phi = quantity == Quantity::solid_fraction;
@@ -283,8 +292,8 @@ std::string mean_panel(const Axes& axes, const std::vector<FittedSeries>& all,
     const std::string style = " ls " + cell(k + 1);
     const auto& fit = is_phi ? all[k].phi : all[k].z;
     if (is_determined(fit)) {
-      parts.push_back(cell(fit->bulk.value) + " - (" + cell(fit->slope.value) +
-                      ") * (x >= 0 ? x : NaN) with lines" + style +
+      parts.push_back(cell(fit->bulk.value) + " - (" + cell(fit->slope.value) + ") * (" +
+                      range_of_line(*fit) + " ? x : NaN) with lines" + style +
                       (is_doubted(fit) ? " lw 1 dt 2" : " lw 1.4") + " notitle");
     } else if (!all[k].series->is_scattered) {
       parts.push_back(plot_part(

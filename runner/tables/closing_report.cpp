@@ -120,7 +120,7 @@ std::string protocol_text(const WallFit& fit, int decimals) {
 /// How good the line is, in brackets.
 std::string quality_text(const WallFit& fit) {
   return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
-         widths_text(fit) + ")";
+         std::to_string(fit.widths) + " widths)";
 }
 
 /// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.
@@ -141,6 +141,7 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals,
       ",  ζ = " + slope + "/" + symbol +
       "_bulk = " + length_text(fit.zeta.value, fit.zeta.error, 3, units) +
       (units ? "\n      " : "  ") + quality_text(fit) + "\n";
+  if (fit.narrow_widths > 0) text += "      " + left_out_text(fit) + "\n";
   if (!fit.doubt.empty()) text += "      " + fit.doubt + "\n";
   return text;
 }

@@ -13,6 +13,8 @@
 namespace grainsweep {
 namespace {
 
+constexpr const char* narrow_containers = "(W < 4 d, ducts and tubes < 5 d)";
+
 /// Those with a settled packing; and which of them the line goes through.
 struct FittedGroups {
   std::vector<const Group*> on_line;
@@ -115,7 +117,7 @@ std::string doubt_of(const LineFit& line, const std::vector<FitPoint>& points, Q
   const bool has_narrow = std::any_of(points.begin(), points.end(), [](const FitPoint& point) {
     return is_narrow(point.group->job.box);
   });
-  return has_narrow ? "no line need hold in narrow containers (W < 4 d, ducts and tubes < 5 d)"
+  return has_narrow ? std::string("no line need hold in narrow containers ") + narrow_containers
                     : "";
 }
 
@@ -269,11 +271,9 @@ const Spread& spread_of(const Group& group, Quantity quantity) {
   return mean_of(group, name_of(quantity));
 }
 
-std::string widths_text(const WallFit& fit) {
-  std::string text = std::to_string(fit.widths) + " widths";
-  if (fit.narrow_widths == 0) return text;
-  return text + ", " + std::to_string(fit.narrow_widths) + " narrow " +
-         (fit.narrow_widths == 1 ? "one" : "ones") + " left out";
+std::string left_out_text(const WallFit& fit) {
+  return std::to_string(fit.narrow_widths) + " narrow width" + (fit.narrow_widths == 1 ? "" : "s") +
+         " left out " + narrow_containers;
 }
 
 WallFit fit_walls(const Family& family, Quantity quantity) {

@@ -59,8 +59,8 @@ struct WallFit {
 
 WallFit fit_walls(const Family& family, Quantity quantity);
 
-/// "5 widths", "5 widths, 2 narrow ones left out".
-std::string widths_text(const WallFit& fit);
+/// "2 narrow widths left out (W < 4 d, ducts and tubes < 5 d)": of a fit that leaves some out.
+std::string left_out_text(const WallFit& fit);
 
 /// The whole file: two rows per family with walls.
 std::string fits_csv(const std::vector<Family>& families, const GivenUnits& units = {});
