@@ -31,8 +31,8 @@ struct FitGroup {
   std::size_t mean = 0;     ///< which mean of groups.csv its packings enter: seeds share one
   double width = 0.0;       ///< d
   double floor_area = 0.0;  ///< of its container, d^2
-  bool is_walled = false;   ///< whether it may be on the line; others only show how packings scatter
-  bool may_grow = false;    ///< otherwise all its packings are made
+  bool is_walled = false;  ///< whether it may be on the line; others only show how packings scatter
+  bool may_grow = false;   ///< otherwise all its packings are made
   /// What came of its packings, in their order; nullptr stands for one that is not made yet.
   std::vector<const Outcome*> made = {};
   bool is_narrow = false;  ///< whether no line need hold there

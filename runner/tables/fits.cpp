@@ -165,10 +165,6 @@ Columns<FitLine> fit_status_columns() {
        [](Line line) { return cell(line.fit.not_determined + line.fit.doubt); }},
       {"widths", "", "different widths of the line, with a settled packing",
        [](Line line) { return cell(line.fit.widths); }},
-      {"narrow_widths", "",
-       "others that it leaves out, as no line need hold in narrow containers (W below 4 d, ducts "
-       "and tubes 5 d): none where fewer than three wider ones are left",
-       [](Line line) { return cell(line.fit.narrow_widths); }},
       {"packings", "", "settled packings behind them",
        [](Line line) { return cell(line.fit.packings); }},
       {"weights", "", "what the errors of the points are",
@@ -187,36 +183,41 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
   add("zeta", "d", "C over bulk", &WallFit::zeta);
   using Reference = const Group&;
   using Value = const Spread&;
-  append(columns,
-         Columns<FitLine>{
-             {"bulk_bias_bound", "",
-              "how far bulk lies at most from that of beds settled ever better; empty if not "
-              "measured",
-              fit_cell([](const WallFit& fit) { return fit.bias_bound.value_or(no_number); })},
-             {"chi2_per_dof", "", "about 1 or less if the line holds, of the line without scatter",
-              fit_cell(&WallFit::chi2_per_dof)},
-             {"scatter", "",
-              "standard deviation of the means about the line beyond their errors, with which chi2 "
-              "would be 1; part of the errors of bulk, C and zeta",
-              fit_cell(&WallFit::scatter)},
-             {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
-             {"r_squared", "",
-              "share of the variance of the means that the line explains, both weighted by the "
-              "points' errors",
-              fit_cell(&WallFit::r_squared)},
-             {"biperiodic_width", "d",
-              "of the reference, the widest box without walls: of the family, or, if it has none, "
-              "as a tube, "
-              "of another one that differs in nothing but its container and its fill",
-              reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
-             {"biperiodic_mean", "", "the quantity there",
-              reference_cell([](Reference /*group*/, Value at) { return at.mean; })},
-             {"biperiodic_sd", "", "standard deviation of it over the replicates",
-              reference_cell([](Reference /*group*/, Value at) { return at.sd; })},
-             {"biperiodic_n", "", "settled packings behind it",
-              reference_cell([](Reference /*group*/, Value at) { return at.n; })},
-             {"parameters", "", "of the family, as JSON",
-              [](const FitLine& line) { return cell(line.family.parameters); }}});
+  append(
+      columns,
+      Columns<FitLine>{
+          {"bulk_bias_bound", "",
+           "how far bulk lies at most from that of beds settled ever better; empty if not "
+           "measured",
+           fit_cell([](const WallFit& fit) { return fit.bias_bound.value_or(no_number); })},
+          {"chi2_per_dof", "", "about 1 or less if the line holds, of the line without scatter",
+           fit_cell(&WallFit::chi2_per_dof)},
+          {"scatter", "",
+           "standard deviation of the means about the line beyond their errors, with which chi2 "
+           "would be 1; part of the errors of bulk, C and zeta",
+           fit_cell(&WallFit::scatter)},
+          {"degrees_of_freedom", "", "points less 2", fit_cell(&WallFit::degrees_of_freedom)},
+          {"r_squared", "",
+           "share of the variance of the means that the line explains, both weighted by the "
+           "points' errors",
+           fit_cell(&WallFit::r_squared)},
+          {"biperiodic_width", "d",
+           "of the reference, the widest box without walls: of the family, or, if it has none, "
+           "as a tube, "
+           "of another one that differs in nothing but its container and its fill",
+           reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
+          {"biperiodic_mean", "", "the quantity there",
+           reference_cell([](Reference /*group*/, Value at) { return at.mean; })},
+          {"biperiodic_sd", "", "standard deviation of it over the replicates",
+           reference_cell([](Reference /*group*/, Value at) { return at.sd; })},
+          {"biperiodic_n", "", "settled packings behind it",
+           reference_cell([](Reference /*group*/, Value at) { return at.n; })},
+          {"narrow_widths", "",
+           "widths that the line leaves out, as none need hold in narrow containers (W below 4 d, "
+           "ducts and tubes 5 d): none where fewer than three wider ones are left",
+           [](const FitLine& line) { return cell(line.fit.narrow_widths); }},
+          {"parameters", "", "of the family, as JSON",
+           [](const FitLine& line) { return cell(line.family.parameters); }}});
   append_in_units(columns, units);
   return columns;
 }
