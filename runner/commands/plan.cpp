@@ -147,8 +147,11 @@ std::string shards_text(const Sweep& sweep, const std::vector<Cost>& costs, int 
   return text + "\n";
 }
 
-/// Which packings come next, of growing groups and others, after those that are made.
-std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNames& names) {
+/// Which packings come next, of growing groups and others, after those that are made; if there are
+/// none, which requested errors were reached.
+std::string next_text(const GrowingSweep& growing, const Outcomes& made,
+                      const PackingNames& names) {
+  const Sweep& sweep = growing.now();
   constexpr std::size_t most_shown = 8;
   std::vector<Places> next = parameter_sets(sweep.jobs);
   std::size_t all = 0;
@@ -158,8 +161,7 @@ std::string next_text(const Sweep& sweep, const Outcomes& made, const PackingNam
   }
   std::erase_if(next, [](const Places& set) { return set.empty(); });
   std::sort(next.begin(), next.end());  // by the first packing of each
-  if (all == 0)
-    return "Nothing comes next: what was asked for is met, the most is made, or too few settle\n";
+  if (all == 0) return "Nothing comes next. " + growing.wishes(made);
   std::string text = "Next: " + counted(all, "packing") + ": ";
   for (std::size_t i = 0; i < std::min(next.size(), most_shown); ++i) {
     text += (i == 0 ? "" : "; ") + std::to_string(next[i].size()) + " of " +
@@ -384,7 +386,7 @@ int perform(const PlanOptions& options) {
             : needs.wall_seconds;
     print_text(sweep, costs, left.costs.size(), needs, grown_seconds, threads, names);
     if (grows(whole)) {
-      std::cout << next_text(sweep, made, names) << growth_text(most)
+      std::cout << next_text(growing, made, names) << growth_text(most)
                 << "; with --out the packings made so far tell how many come next\n";
     }
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);

@@ -83,7 +83,7 @@ expect_text out.txt "Errors as asked for (95 %) in 0 of 1 fit" "in 1 the packing
 packings=$(($(wc -l <fit-one/packings.csv) - 1))
 ((packings > 26 && packings < 122)) || fail "$packings packings: the fit grows, not to the most"
 expect_code 0 "$program" plan fit.json --out fit-one
-expect_text out.txt 'Nothing comes next'
+expect_text out.txt 'Nothing comes next. Errors as asked for (95 %) in 0 of 1 fit'
 expect_code 0 "$program" run fit.json --out fit-two --threads 2 --no-report --quiet
 same fit-two fit-one
 for shard in 2 3 1; do
