@@ -23,6 +23,23 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+namespace {
+
+/// The only candidate that begins with `word`, of at least three letters: "error" of "err"; "" if
+/// there is none, or more than one.
+std::string whole_word(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t shortest = 3;
+  std::string found;
+  for (const std::string& candidate : candidates) {
+    if (word.size() < shortest || !candidate.starts_with(word)) continue;
+    if (!found.empty()) return "";
+    found = candidate;
+  }
+  return found;
+}
+
+}  // namespace
+
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest_word = 100;  // longer ones are not misspelt
   if (word.size() > longest_word) return "";
@@ -34,7 +51,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     best = distance;
     found = candidate;
   }
-  return found;
+  return found.empty() ? whole_word(word, candidates) : found;
 }
 
 std::string shortened(std::string_view text) {

@@ -14,7 +14,8 @@ namespace grainsweep {
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`, or "" if none is near: more than a third of the word is wrong.
+/// The candidate nearest to `word`, or the only one that begins with it; "" if there is none: more
+/// than a third of the word is wrong.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// `text`, cut with "..." if it is too long for a message; never within a character of UTF-8.

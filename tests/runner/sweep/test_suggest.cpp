@@ -21,6 +21,13 @@ TEST_CASE("the nearest word is suggested only if most of it is right") {
   CHECK(nearest(std::string(1'000'000, 'a'), {"a"}).empty());
 }
 
+TEST_CASE("the beginning of only one word suggests that") {
+  CHECK(nearest("err", {"value", "error", "relative_error"}) == "error");
+  CHECK(nearest("replic", {"name", "replicates"}) == "replicates");
+  CHECK(nearest("size", {"size_ratio", "size_table"}).empty());
+  CHECK(nearest("re", {"replicates"}).empty());
+}
+
 TEST_CASE("long words are cut between characters") {
   CHECK(shortened("short") == "short");
   CHECK(shortened(std::string(59, 'a') + "\xC3\xA4\xC3\xA4") == std::string(59, 'a') + "...");
