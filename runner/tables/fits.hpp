@@ -3,9 +3,9 @@
 //   phi = phi_bulk - C / W,     Z = Z_bulk - C_Z / W,     zeta = C / phi_bulk or C_Z / Z_bulk
 //
 // least squares over the widths, each mean with its error from groups.csv: errors from each width
-// alone would let chance decide which widths count. The errors of a fit follow from those, times
-// sqrt(chi2 per degree of freedom) where that exceeds 1: a line that misses its points by more than
-// their errors is known no better than it misses them. A fit that the packings do not support is
+// alone would let chance decide which widths count. The errors of a fit follow from those and from
+// a scatter of the means about the line, if they miss it by more than their errors
+// (runner/analysis/fit.hpp). A fit that the packings do not support is
 // "not determined", with the reason, and has no numbers. Narrow containers, where layers fit or do
 // not, are left out if there are three wider ones.
 #pragma once
