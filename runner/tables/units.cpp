@@ -12,6 +12,8 @@ namespace grainsweep {
 
 std::vector<Conversion> conversions_of(const std::string& name, const std::string& unit,
                                        const Units& units) {
+  const bool is_parameter = name.find('.') != std::string::npos;  // of the sweep, as that has it
+  if (is_parameter) return {};
   if (unit == "d") return {{name + "_" + units.unit, units.unit, "", 0.0, units.d}};
   constexpr std::string_view solid_fraction = "solid_fraction";
   if (name.rfind(solid_fraction, 0) != 0) return {};

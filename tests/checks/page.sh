@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # report.html as people see it: browser.py opens the pages of small sweeps in Chromium - spheres
-# with the labels that would do most harm, sizes instead of widths, polyhedra, one in which all
-# packings failed, one in which none was made - and the view of one bed. usage: page.sh GRAINSWEEP
+# with the labels that would do most harm, sizes instead of widths, distributions of them, polyhedra,
+# one in which all packings failed, one in which none was made - and the view of one bed.
+# usage: page.sh GRAINSWEEP
 set -euo pipefail
 grainsweep=$(realpath "${1:?usage: page.sh GRAINSWEEP}")
 checks=$(realpath "$(dirname "$0")")
@@ -38,6 +39,11 @@ sweep mixture '"shape": { "mixture": [ { "share": 0.5, "cube": {} }, { "share": 
 sweep failed "$square" '{ "label": "short", "set": { "accuracy": { "preset": "fast", "max_steps": 40 } } }'
 sweep empty "$square" '{ "label": "none", "grid": { "box.width": [3, 4] } }'
 
+sweep grading "$square" '{ "label": "sieved", "grid": { "sizes.distribution": [
+  { "table": { "diameters": [10, 20], "shares": [0.3, 0.7] }, "size": 20 },
+  { "lognormal": { "median": 20, "sigma": 0.1 }, "size": 20 } ] } }'
+sed -i 's/"replicates": 2/&, "units": { "d": 20, "unit": "mm", "density": 2650 }/' grading.json
+
 # has_figures NAME FIGURE...: its page shows these and no others, each with all of its files.
 has_figures() {
   local name=$1 figure
@@ -56,7 +62,7 @@ fail() {
 }
 
 pages=()
-for name in widths sizes pinacoids mixture failed empty; do
+for name in widths sizes grading pinacoids mixture failed empty; do
   "$grainsweep" run "$name.json" --quiet --out "$name" || [ $? -eq 1 ]
   pages+=("$name/report.html")
 done
@@ -64,6 +70,7 @@ done
 [ ! -e widths/figures/x ]
 has_figures widths means profiles heights distributions effort published
 has_figures sizes means profiles small_grains heights distributions effort
+has_figures grading means profiles grading heights distributions effort
 has_figures pinacoids means profiles contacts heights distributions effort
 has_figures mixture means profiles components contacts heights distributions effort
 has_figures failed effort

@@ -131,6 +131,20 @@ TEST_CASE("numbers of a family's parameters are written as those of its packings
         R"({"accuracy":{"gap":1e-04,"list":[0.5,1e-06,3]},"box":{"length":20}})");
 }
 
+TEST_CASE("what a sweep varies has its unit, and no column in another one") {
+  std::vector<Row> rows = {settled_row("a", 5, 0.6, 6), settled_row("b", 5, 0.61, 6)};
+  rows[0].job.parameters = R"({"sizes":{"distribution":{"table":{"diameters":[0.5,1,1.4]}}}})";
+  rows[1].job.parameters = R"({"sizes":{"distribution":{"lognormal":{"median":1.1}}}})";
+  const std::vector<Group> groups = groups_of(rows);
+  const Units millimetres = {10.0, "mm", {}};
+  const std::string text = groups_csv(groups, millimetres);
+  CHECK(cell_in(text, 2, "sizes.distribution.lognormal.median") == "1.1");
+  CHECK_THAT(text, !Catch::Contains("median_mm") && !Catch::Contains("diameters_mm"));
+  for (const auto& column : groups_columns(varied_of(groups), millimetres)) {
+    if (column.name == "sizes.distribution.lognormal.median") CHECK(column.unit == "d");
+  }
+}
+
 TEST_CASE("a mean is asked for by the name of its field") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
   const auto groups = groups_of(rows);

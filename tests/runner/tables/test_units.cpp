@@ -45,6 +45,7 @@ TEST_CASE("scatter and errors of porosity are those of the solid fraction") {
   CHECK(converted("", of_error[1]).empty());
   CHECK(conversions_of("solid_fraction_large", "", millimetres).empty());
   CHECK(conversions_of("low", "d or 1", millimetres).empty());
+  CHECK(conversions_of("tube.diameter", "d", millimetres).empty());  // as the sweep has it
   CHECK(conversions_of("solid_fraction", "", {1.0, "m", {}}).size() == 1);
 }
 
