@@ -228,7 +228,7 @@ class Round {
 
   /// Whether packings may be added to a group.
   bool goes_on(std::size_t k) const {
-    return groups_[k].may_grow && (are_on_line_[k] || settled_[k] == 0) &&
+    return groups_[k].may_grow && are_on_line_[k] &&
            !settle_too_seldom(settled_[k], replicates_[k]);
   }
 

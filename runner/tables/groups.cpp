@@ -90,18 +90,20 @@ std::string shapes_of(const Group& group) {
 /// Finds, among what is varied, what tells groups apart.
 void note_told(std::vector<Group>& groups) {
   std::map<std::string, std::map<std::string, std::set<std::string>>> values;  // by shapes and path
-  std::set<std::string> shapes;
+  std::vector<std::string> shapes;
+  shapes.reserve(groups.size());
   for (const Group& group : groups) {
-    shapes.insert(shapes_of(group));
-    for (const auto& [path, value] : group.varied) values[shapes_of(group)][path].insert(value);
+    auto& of_shapes = values[shapes.emplace_back(shapes_of(group))];
+    for (const auto& [path, value] : group.varied) of_shapes[path].insert(value);
   }
-  for (Group& group : groups) {
-    const auto& of_shapes = values[shapes_of(group)];
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    Group& group = groups[k];
+    const auto& of_shapes = values[shapes[k]];
     for (const auto& [path, value] : group.varied) {
       const bool is_part = is_of_shape(path) && component_of_share(path) == 0;
       if (!is_part || of_shapes.at(path).size() > 1) group.told[path] = value;
     }
-    if (shapes.size() > 1) group.told["shape"] = shapes_of(group);
+    if (values.size() > 1) group.told["shape"] = shapes[k];
   }
 }
 
