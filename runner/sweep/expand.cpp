@@ -17,6 +17,7 @@
 #include "runner/sweep/parameter_row.hpp"
 #include "runner/sweep/point_problems.hpp"
 #include "runner/sweep/said_once.hpp"
+#include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/unused_values.hpp"
 #include "runner/sweep/values.hpp"
 

@@ -14,6 +14,7 @@
 #include "runner/store/fields.hpp"
 #include "runner/store/states.hpp"
 #include "runner/sweep/parameters.hpp"
+#include "runner/tables/component_names.hpp"
 
 namespace grainsweep {
 namespace {
