@@ -10,6 +10,7 @@
 #include "runner/compare/formula.hpp"
 #include "runner/report/figures.hpp"
 #include "runner/report/plots.hpp"
+#include "runner/sweep/bed_kind.hpp"
 #include "runner/sweep/parameters.hpp"
 #include "runner/tables/fits.hpp"
 #include "runner/text.hpp"
@@ -403,7 +404,8 @@ std::string narrow_text(const std::vector<FittedSeries>& all) {
     names += (names.empty() ? "" : "; ") + one.series->name;
   }
   if (names.empty()) return "";
-  return " Lines leave out narrow containers (W below 4 d, ducts and tubes 5 d): " + names + ".";
+  return std::string(" Lines leave out narrow containers ") + narrow_containers + ": " + names +
+         ".";
 }
 
 /// Which lines are in doubt and why, each doubt once.

@@ -13,6 +13,7 @@ namespace grainsweep {
 /// ducts and tubes than 5 d. phi and Z go up and down with the width there, as layers fit or do
 /// not.
 bool is_narrow(const Box& box);
+inline constexpr const char* narrow_containers = "(W < 4 d, ducts and tubes < 5 d)";
 
 /// None for beds unlike any that was measured: starts from files; classes that spread more than
 /// they usually do; small grains less than half as large as the others, or without others;

@@ -203,8 +203,7 @@ std::vector<Parameter> size_parameters() {
                "where it is cut above, d; if left out, of those two where 0.1 % are coarser"),
            own("sizes.distribution.size", positive,
                "the length that is d in the unit in which the lengths of the distribution are "
-               "written; 1 "
-               "if left out. Tables have them in d",
+               "written; 1 if left out. Tables have them in d",
                ValueKind::number, Role::distribution, set_member<&ResolvedSpec::size_unit>,
                no_identity)}) {
     all.push_back(std::move(parameter));

@@ -234,7 +234,7 @@ std::string distinct(const std::vector<Row>& rows, Value value) {
   return text;
 }
 
-constexpr std::string_view own_units[] = {"\"distribution\":", "\"file\":", "\"files\":"};
+constexpr std::string_view file_keys[] = {"\"file\":", "\"files\":"};
 
 constexpr const char *of_one_size = "the mean diameter of the grains",
                      *of_large_grains = "the mean diameter of the large grains";
@@ -244,7 +244,8 @@ constexpr const char *of_one_size = "the mean diameter of the grains",
 std::string unit_of(const JobFacts& job) {
   const std::string& parameters = job.parameters.text();
   const bool has_own_unit =
-      std::any_of(std::begin(own_units), std::end(own_units),
+      has_size_distribution(job) ||
+      std::any_of(std::begin(file_keys), std::end(file_keys),
                   [&](std::string_view key) { return parameters.find(key) != std::string::npos; });
   if (has_own_unit) return "the length chosen as 1 for sizes";
   if (job.shape == "hull") return "the length of a hull that is its \"size\"";

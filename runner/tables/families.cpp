@@ -78,14 +78,14 @@ Flat parameters_of(const Family& family) {
   flat.erase("tube.diameter");
   flat["shape"] = first_group(family).job.shape;
   const std::string& accuracy = first_group(family).job.accuracy;
-  flat["accuracy"] = accuracy == "custom" ? nearest_preset(flat) : accuracy;
+  flat["accuracy"] = has_preset(first_group(family).job) ? accuracy : nearest_preset(flat);
   return flat;
 }
 
 /// The same without the parts that the preset stands for.
 Flat told_by(const Family& family) {
   Flat flat = parameters_of(family);
-  const bool is_custom = first_group(family).job.accuracy == "custom";
+  const bool is_custom = !has_preset(first_group(family).job);
   const Flat& preset = flat_presets().at(flat.at("accuracy"));
   std::erase_if(flat, [&](const auto& part) {
     return is_custom ? is_as_in(preset, part) : is_of_accuracy(part.first);
@@ -210,18 +210,18 @@ double narrower_side(const Group& group) {
 
 void find_unconfined(std::vector<Family>& families) {
   std::map<std::string, const Group*> widest;  // by other_parameters
-  for (const Family& family : families) {
+  for (Family& family : families) {
     const Group* own = unconfined_of(family);
     if (own == nullptr) continue;
+    family.unconfined = *own;
     const Group*& known = widest[other_parameters(family)];
     if (known == nullptr || narrower_side(*own) > narrower_side(*known)) known = own;
   }
   if (widest.empty()) return;
   for (Family& family : families) {
-    const Group* own = unconfined_of(family);
-    const auto other = own == nullptr ? widest.find(other_parameters(family)) : widest.end();
-    if (own == nullptr && other != widest.end()) own = other->second;
-    if (own != nullptr) family.unconfined = *own;
+    if (family.unconfined) continue;
+    const auto other = widest.find(other_parameters(family));
+    if (other != widest.end()) family.unconfined = *other->second;
   }
 }
 

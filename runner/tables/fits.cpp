@@ -13,8 +13,6 @@
 namespace grainsweep {
 namespace {
 
-constexpr const char* narrow_containers = "(W < 4 d, ducts and tubes < 5 d)";
-
 /// Those with a settled packing; and which of them the line goes through.
 struct FittedGroups {
   std::vector<const Group*> on_line;
@@ -202,9 +200,8 @@ Columns<FitLine> fit_line_columns(const GivenUnits& units) {
            "points' errors",
            fit_cell(&WallFit::r_squared)},
           {"biperiodic_width", "d",
-           "of the reference, the widest box without walls: of the family, or, if it has none, "
-           "as a tube, "
-           "of another one that differs in nothing but its container and its fill",
+           "of the reference, the widest box without walls: of the family, or, if it has none, as "
+           "a tube, of another one that differs in nothing but its container and its fill",
            reference_cell([](Reference group, Value /*at*/) { return group.job.box.width; })},
           {"biperiodic_mean", "", "the quantity there",
            reference_cell([](Reference /*group*/, Value at) { return at.mean; })},

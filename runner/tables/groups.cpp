@@ -108,16 +108,15 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
-bool has_preset(const Group& group) { return group.job.accuracy != "custom"; }
-
 void note_presets(std::vector<Group>& groups) {
   std::set<std::string> names;
   for (const Group& group : groups) {
-    if (has_preset(group)) names.insert(group.job.accuracy);
+    if (has_preset(group.job)) names.insert(group.job.accuracy);
   }
-  const bool all_have_one = std::all_of(groups.begin(), groups.end(), has_preset);
+  const bool all_have_one = std::all_of(groups.begin(), groups.end(),
+                                        [](const Group& group) { return has_preset(group.job); });
   for (Group& group : groups) {
-    group.is_told_by_preset = has_preset(group) && (all_have_one || names.size() > 1);
+    group.is_told_by_preset = has_preset(group.job) && (all_have_one || names.size() > 1);
   }
 }
 

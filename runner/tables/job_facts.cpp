@@ -141,7 +141,7 @@ JobFacts facts_of(const Job& job) {
   facts.parameters = job.parameters;
   facts.shape = name_of(job.spec.shape);
   facts.accuracy = accuracy_name(job.spec.accuracy);
-  if (facts.accuracy == custom) facts.settles_as = settles_as(job.spec.accuracy);
+  if (!has_preset(facts)) facts.settles_as = settles_as(job.spec.accuracy);
   facts.box = job.spec.box;
   facts.small_share = job.spec.sizes.small_share;
   facts.kind = bed_kind(job.spec);

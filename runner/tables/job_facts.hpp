@@ -41,6 +41,7 @@ struct JobFacts : JobName {
 
 /// Whether its grains are a mixture of shapes.
 inline bool is_mixture(const JobFacts& job) { return job.shape == "mixture"; }
+inline bool has_preset(const JobFacts& job) { return job.accuracy != "custom"; }
 
 /// A job and what came of it; no outcome while it is pending.
 struct Row {

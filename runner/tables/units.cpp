@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/text.hpp"
+#include "runner/sweep/parameters.hpp"
 #include "runner/tables/csv.hpp"
 #include "runner/text.hpp"
 
@@ -12,8 +13,7 @@ namespace grainsweep {
 
 std::vector<Conversion> conversions_of(const std::string& name, const std::string& unit,
                                        const Units& units) {
-  const bool is_parameter = name.find('.') != std::string::npos;  // of the sweep, as that has it
-  if (is_parameter) return {};
+  if (find_parameter(name)) return {};  // it is as the sweep has it
   if (unit == "d") return {{name + "_" + units.unit, units.unit, "", 0.0, units.d}};
   constexpr std::string_view solid_fraction = "solid_fraction";
   if (name.rfind(solid_fraction, 0) != 0) return {};
