@@ -271,6 +271,46 @@ bool is_far(const SphereBed& bed, GrainPair pair, const Candidates& candidates) 
   return std::sqrt(x * x + y * y + z * z) - p.w - q.w >= candidates.reach - less;
 }
 
+/// Looks the strays up once more: from now on they are where they are now. The grid of all members
+/// is filled anew once many have moved in it; until then those that have are in a grid of their
+/// own.
+void move_strays(const ExecutionContext& context, SphereBed& bed, Candidates& candidates) {
+  LookupGrids& grids = candidates.lookup_grids;
+  const Cells& cells = candidates.levels.front().cells;
+  const auto fill = [&](const std::vector<std::int32_t>& grains, GridColumns& grid) {
+    fill_columns({bed, candidates.built_at}, grains, cells, context.loop, grid);
+  };
+  for (const std::int32_t grain : candidates.strays) {
+    const auto i = static_cast<std::size_t>(grain);
+    wrap(bed.box, bed.position[i]);
+    candidates.built_at[i] = bed.position[i];
+    if (!grids.is_filled || grids.has_moved[i] != 0) continue;
+    grids.has_moved[i] = 1;
+    grids.moved.push_back(grain);
+  }
+  constexpr std::size_t many = 8;  // one in so many
+  if (!grids.is_filled || many * grids.moved.size() > candidates.members.size()) {
+    fill(candidates.members, grids.of_all);
+    grids.has_moved.assign(bed.grains(), 0);
+    grids.moved.clear();
+    grids.is_filled = true;
+  }
+  fill(grids.moved, grids.of_moved);
+}
+
+/// Lists the pairs that strays have in a grid.
+void meet(const GridColumns& grid, const ExecutionContext& context, Candidates& candidates) {
+  const SphereGrid view = view_of(grid, candidates.levels.front().cells,
+                                  static_cast<float>(candidates.reach + candidates.slack));
+  const SphereQueries queries =
+      view_of(candidates.queries, candidates.strays, {0, candidates.strays.size()});
+  append_found(
+      [&](GrainPair* pairs, std::size_t capacity) {
+        return context.kernels.sphere_pairs_across(view, queries, pairs, capacity);
+      },
+      16 * candidates.strays.size(), candidates.met);
+}
+
 /// Keeps those of the pairs met that are not in the list, each once, by their grains.
 void keep_unlisted(Candidates& candidates) {
   std::vector<GrainPair>& met = candidates.met;
@@ -300,25 +340,17 @@ void add_walls(const SphereBed& bed, Candidates& candidates) {
 
 /// Lists the pairs that strays have come near in.
 void look_up(const ExecutionContext& context, SphereBed& bed, Candidates& candidates) {
-  for (const std::int32_t grain : candidates.strays) {
-    const auto i = static_cast<std::size_t>(grain);
-    wrap(bed.box, bed.position[i]);
-    candidates.built_at[i] = bed.position[i];
-  }
-  const Balls balls{bed, candidates.built_at};
-  const Cells& cells = candidates.levels.front().cells;
-  fill_columns(balls, candidates.members, cells, context.loop, candidates.around);
-  fill_queries(balls, candidates.strays, cells, candidates.queries);
-  const SphereGrid grid =
-      view_of(candidates.around, cells, static_cast<float>(candidates.reach + candidates.slack));
-  const SphereQueries queries =
-      view_of(candidates.queries, candidates.strays, {0, candidates.strays.size()});
+  move_strays(context, bed, candidates);
+  const LookupGrids& grids = candidates.lookup_grids;
+  const auto has_moved = [&](std::int32_t grain) {
+    return grids.has_moved[static_cast<std::size_t>(grain)] != 0;
+  };
+  fill_queries({bed, candidates.built_at}, candidates.strays, candidates.levels.front().cells,
+               candidates.queries);
   candidates.met.clear();
-  append_found(
-      [&](GrainPair* pairs, std::size_t capacity) {
-        return context.kernels.sphere_pairs_across(grid, queries, pairs, capacity);
-      },
-      16 * candidates.strays.size(), candidates.met);
+  meet(grids.of_all, context, candidates);
+  std::erase_if(candidates.met, [&](GrainPair p) { return has_moved(p.a) && has_moved(p.b); });
+  meet(grids.of_moved, context, candidates);
   if (candidates.levels.back().less > 0.0) {
     std::erase_if(candidates.met, [&](GrainPair pair) { return is_far(bed, pair, candidates); });
   }
@@ -348,6 +380,7 @@ void list_candidates(const Balls& balls, double reach, double margin, const Leve
   remember_positions(balls, context.loop, candidates);
   candidates.searched = candidates.pairs.size();
   candidates.is_indexed = false;
+  candidates.lookup_grids.is_filled = false;
 }
 
 }  // namespace

@@ -44,6 +44,15 @@ struct QueryColumns {
   std::vector<std::int32_t> cell;
 };
 
+/// Where strays are looked up: all members where they were when this was filled, and those that
+/// have been looked up since, where they were then.
+struct LookupGrids {
+  bool is_filled = false;
+  GridColumns of_all, of_moved;
+  std::vector<std::int32_t> moved;
+  std::vector<std::uint8_t> has_moved;  ///< of each grain
+};
+
 /// Whether a list is unchanged, has been added to, or is a new one.
 enum class ListChange { none, added, whole };
 
@@ -66,9 +75,9 @@ struct Candidates {
   std::vector<std::size_t> found_begin;       ///< where each part's pairs go
   std::vector<std::int32_t> strays;           ///< memory of complete_candidates
   std::vector<GrainPair> met;                 ///< pairs that they come near in
-  GridColumns around;                         ///< all members where they were looked up
-  PairIndex index;                            ///< of the pairs
-  bool is_indexed = false;                    ///< whether it knows them
+  LookupGrids lookup_grids;
+  PairIndex index;          ///< of the pairs
+  bool is_indexed = false;  ///< whether it knows them
 };
 
 /// Gap below which two balls of these radii count as near, d; no smaller for larger balls.

@@ -111,8 +111,12 @@ class InteriorPoint {
     constexpr double narrow = 3.5;  // d
     return bed_.box.is_tube && bed_.box.length < narrow;
   }
-  /// Whether a pair's curvature counts.
-  bool rolls(const Link& link) const { return is_narrow() && bed_.is_grain(link.b); }
+  /// Whether a pair's curvature counts: in other tubes once forces are nearly found, of which most
+  /// do not hold a bed before.
+  bool rolls(const Link& link) const {
+    constexpr double nearly_found = 1e-8;  // product
+    return bed_.box.is_tube && bed_.is_grain(link.b) && (is_narrow() || product_ < nearly_found);
+  }
 
   /// All pairs and walls within reach of where the grains are now; those listed before stay as they
   /// are.
@@ -150,8 +154,8 @@ class InteriorPoint {
     links_.push_back(link);
   }
 
-  /// A spring for each link; then those across it: one for a round wall, whose normal turns as a
-  /// grain slides along it, two for a pair that rolls.
+  /// A spring for each link; then one across each round wall, whose normal turns as a grain slides
+  /// along it.
   void lay_out_springs() {
     springs_.clear();
     for (const Link& link : links_) {
@@ -159,7 +163,6 @@ class InteriorPoint {
     }
     for (const Link& link : links_) {
       if (is_curved(link)) springs_.push_back({link.a, Spring::fixed});
-      if (rolls(link)) springs_.insert(springs_.end(), 2, {link.a, link.b});
     }
     factors_.analyse(bed_.centres(), springs_);
   }
@@ -170,13 +173,8 @@ class InteriorPoint {
     std::size_t across = links_.size();
     for (std::size_t k = 0; k < links_.size(); ++k) {
       measure_link(links_[k], springs_[k]);
-      const Vector along = springs_[k].along;
+      const Vector& along = springs_[k].along;
       if (is_curved(links_[k])) springs_[across++].along = {-along.y(), along.x(), 0.0};
-      if (rolls(links_[k])) {
-        const Vector side = along.unitOrthogonal();
-        springs_[across++].along = side;
-        springs_[across++].along = along.cross(side);
-      }
     }
   }
   void measure_link(Link& link, Spring& spring) {
@@ -337,24 +335,24 @@ class InteriorPoint {
   /// a grain on another is turned by way / (r + r'), away from it.
   void stiffen_across() {
     std::size_t across = links_.size();
-    for (const Link& link : links_) {
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      const Link& link = links_[k];
       const double radius = bed_.position[static_cast<std::size_t>(link.a)].w;
       if (is_curved(link)) {
         const double off_axis = wall_of(link).radius - radius - link.gap;
         springs_[across++].stiffness = link.force / std::max(off_axis, least_slack);
       }
+      springs_[k].across = 0.0;
       if (rolls(link)) {
-        const double distance =
-            radius + bed_.position[static_cast<std::size_t>(link.b)].w + link.gap;
-        springs_[across++].stiffness = -link.force / distance;
-        springs_[across++].stiffness = -link.force / distance;
+        const double other = bed_.position[static_cast<std::size_t>(link.b)].w;
+        springs_[k].across = -link.force / (radius + other + link.gap);
       }
     }
   }
 
   /// Pairs that roll off each other unheld would let forces grow without bound.
   void leave_out_rolling() {
-    for (Spring& spring : springs_) spring.stiffness = std::max(spring.stiffness, 0.0);
+    for (Spring& spring : springs_) spring.across = 0.0;
   }
 
   /// The step that a round aims at. Targets are changed, with the same factors, until the step is
@@ -412,7 +410,11 @@ class InteriorPoint {
   void take_forces_of_way(std::vector<Vector>& from) const {
     for (std::size_t i = 0; i < grains(); ++i) from[i] -= ground_[i] * way_[i];
     for (std::size_t k = 0; k < springs_.size(); ++k) {
-      add_force(k, -springs_[k].stiffness * opening(k), from);
+      const Spring& spring = springs_[k];
+      add_force(k, -spring.stiffness * opening(k), from);
+      if (spring.across == 0.0) continue;
+      const Vector apart = way_apart(spring);
+      add(spring, spring.across * (apart - spring.along.dot(apart) * spring.along), from);
     }
   }
   /// Largest share of a positive value that a round may take away.
@@ -503,9 +505,12 @@ class InteriorPoint {
   // ---- forces ----
 
   void add_force(std::size_t link, double force, std::vector<Vector>& to) const {
-    const Spring& spring = springs_[link];
-    to[static_cast<std::size_t>(spring.a)] -= force * spring.along;
-    if (spring.b != Spring::fixed) to[static_cast<std::size_t>(spring.b)] += force * spring.along;
+    add(springs_[link], -force * springs_[link].along, to);
+  }
+  /// Adds a force on the first end of a spring, and the opposite one on the other end.
+  static void add(const Spring& spring, const Vector& force, std::vector<Vector>& to) {
+    to[static_cast<std::size_t>(spring.a)] += force;
+    if (spring.b != Spring::fixed) to[static_cast<std::size_t>(spring.b)] -= force;
   }
   /// Net force on every grain, its weight included, m g.
   std::vector<Vector> net_forces() const {
@@ -521,10 +526,13 @@ class InteriorPoint {
   }
   /// How much the way of the grains opens a gap, d.
   double opening(std::size_t link) const {
-    const Spring& spring = springs_[link];
+    return springs_[link].along.dot(way_apart(springs_[link]));
+  }
+  /// Way of a spring's other end less that of its first, d.
+  Vector way_apart(const Spring& spring) const {
     Vector apart = -way_[static_cast<std::size_t>(spring.a)];
     if (spring.b != Spring::fixed) apart += way_[static_cast<std::size_t>(spring.b)];
-    return spring.along.dot(apart);
+    return apart;
   }
 
   // ---- the end ----

@@ -6,15 +6,23 @@ namespace grainsweep {
 
 namespace {
 
-/// Adds stiffness * along along^T to the 3 x 3 block of grains i >= j of a front.
+/// Forces of a spring for its ways, d.
+Matrix matrix_of(const Spring& spring) {
+  const Vector& along = spring.along;
+  Matrix matrix = ((spring.stiffness - spring.across) * along) * along.transpose();
+  matrix.diagonal().array() += spring.across;
+  return matrix;
+}
+
+/// Adds a matrix to the 3 x 3 block of grains i >= j of a front.
 template <class Real>
-void add_block(Real* front, std::size_t stride, std::size_t i, std::size_t j, const Vector& along,
-               double stiffness) {
+void add_block(Real* front, std::size_t stride, std::size_t i, std::size_t j,
+               const Matrix& matrix) {
   for (std::size_t q = 0; q < 3; ++q) {
-    const double scaled = stiffness * along[static_cast<Eigen::Index>(q)];
     Real* column = front + (3 * j + q) * stride + 3 * i;
     for (std::size_t p = 0; p < 3; ++p) {
-      column[p] += static_cast<Real>(scaled * along[static_cast<Eigen::Index>(p)]);
+      column[p] +=
+          static_cast<Real>(matrix(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)));
     }
   }
 }
@@ -126,14 +134,13 @@ void StiffnessFactors::gather(std::size_t node, const std::vector<Spring>& sprin
     }
   }
   for (const PlacedSpring& placed : front.springs) {
-    const auto [along, stiffness] =
-        std::pair(springs[placed.spring].along, springs[placed.spring].stiffness);
+    const Matrix spring = matrix_of(springs[placed.spring]);
     const auto a = static_cast<std::size_t>(placed.a);
-    add_block(matrix, front.stride, a, a, along, stiffness);
+    add_block(matrix, front.stride, a, a, spring);
     if (placed.b == Spring::fixed) continue;
     const auto b = static_cast<std::size_t>(placed.b);
-    add_block(matrix, front.stride, b, b, along, stiffness);
-    add_block(matrix, front.stride, std::max(a, b), std::min(a, b), along, -stiffness);
+    add_block(matrix, front.stride, b, b, spring);
+    add_block(matrix, front.stride, std::max(a, b), std::min(a, b), -spring);
   }
   for (const std::int32_t child : tree_.nodes[node].children) {
     if (child != EliminationNode::none) {

@@ -27,6 +27,7 @@ struct Spring {
   std::int32_t b = fixed;
   Vector along = Vector::UnitZ();  ///< unit
   double stiffness = 0.0;          ///< m g / d
+  double across = 0.0;             ///< the same in all directions across; may be negative
 };
 
 /// Multiplications that take some tenths of a second.

@@ -39,7 +39,8 @@ Net drawn_net(std::size_t grains) {
       const double dz = net.centres[a].z - net.centres[b].z;
       if (dz * dz > 1.0) continue;
       net.springs.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
-                             drawn_direction(draw), draw.uniform(0.1, 10.0)});
+                             drawn_direction(draw), draw.uniform(0.1, 10.0),
+                             draw.uniform(-0.002, 0.1)});
     }
     if (net.centres[a].z < 1.0) {
       net.springs.push_back({static_cast<std::int32_t>(a), Spring::fixed, drawn_direction(draw),
@@ -56,7 +57,9 @@ Eigen::MatrixXd matrix_of(const Net& net) {
     matrix.diagonal().segment(static_cast<Eigen::Index>(3 * i), 3).setConstant(net.ground[i]);
   }
   for (const Spring& spring : net.springs) {
-    const Eigen::Matrix3d block = spring.stiffness * spring.along * spring.along.transpose();
+    const Eigen::Matrix3d along = spring.along * spring.along.transpose();
+    const Eigen::Matrix3d block =
+        spring.stiffness * along + spring.across * (Eigen::Matrix3d::Identity() - along);
     const Eigen::Index a = 3 * spring.a, b = 3 * spring.b;
     matrix.block<3, 3>(a, a) += block;
     if (spring.b == Spring::fixed) continue;
