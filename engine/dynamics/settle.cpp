@@ -180,21 +180,24 @@ class Settling {
     return is_short ? longest_in_a_round / static_cast<double>(part) : longest_motion;
   }
 
-  /// Settings of the stage, with more iterations if its first steps look like those of a bed. Tests
-  /// of rest look at the contacts of the very last step.
+  /// How many steps are taken on contacts found once. Tests of rest look at the contacts of the
+  /// very last step.
+  int steps_at_once() const {
+    const std::int64_t untested = steps_left() - (rule().end == StageEnd::rest ? 1 : 0);
+    return static_cast<int>(std::clamp<std::int64_t>(untested, 1, settings_.steps));
+  }
+
+  /// Settings of the stage, with more iterations if its first steps look like those of a bed.
   StepSettings settings_of_step() const {
     StepSettings settings = settings_;
-    const std::int64_t untested = steps_left() - (rule().end == StageEnd::rest ? 1 : 0);
-    const std::int64_t most = std::min(untested, accuracy_.max_steps - report_.steps);
-    settings.steps = static_cast<int>(std::clamp<std::int64_t>(most, 1, settings.steps));
+    settings.steps = steps_at_once();
     const bool looks_closer = rule().end == StageEnd::look && steps_in_stage_ >= steps_down;
     if (looks_closer) settings.limits.iterations *= rule().closer;
     settings.longest = longest_of_round();
     return settings;
   }
 
-  /// Whether there are steps left for going on; for beds that slide on before they are tested once
-  /// more, for both stages.
+  /// Whether there are steps left for sliding on before the bed is tested once more, at least.
   bool has_steps_to_go_on() const {
     const std::int64_t round =
         steps_of(accuracy_, stages_[round_begin()]) + steps_of(accuracy_, stages_.back());
@@ -250,15 +253,15 @@ class Settling {
   /// has too few contacts, or what they leave is several times what is allowed.
   bool is_far_from_rest() const { return is_solved() && !is_nearly_balanced(); }
 
-  /// Whether a bed that does not rest slides on, to be tested once more, and there are steps for
-  /// it. The higher the bed, the more steps its forces take to settle before that.
+  /// Whether a bed that does not rest slides on, to be tested once more. The higher the bed, the
+  /// more steps its forces take to settle before that.
   bool slides_on() const {
     constexpr double layers_of_a_step = 8.0;
     if (rounds_ == most_rounds) return false;
     const double most = static_cast<double>(rule().most_steps - 1);
     const bool has_settled =
         static_cast<double>(steps_in_stage_) >= std::min(most, top_of(bed_) / layers_of_a_step);
-    return has_steps_to_go_on() && (has_settled || is_far_from_rest());
+    return has_settled || is_far_from_rest();
   }
 
   /// Whether more steps of a look will not find a bed at rest that was tested and is not. Forces
@@ -393,7 +396,7 @@ class Settling {
   /// help where rounding keeps the forces of its present contacts from being found. A state that is
   /// not finite must not be searched: it lies in no cell.
   bool goes_on() const {
-    return stage_ < stages_.size() && report_.steps < accuracy_.max_steps &&
+    return stage_ < stages_.size() && report_.steps + steps_at_once() <= accuracy_.max_steps &&
            (rule().end != StageEnd::rest || steps_in_stage_ < rule().most_steps) &&
            unsolved_ < most_unsolved && !report_.cancelled && std::isfinite(last_.kinetic_energy);
   }
@@ -430,8 +433,10 @@ class Settling {
   /// Whether a bed that passes the tests of rest is at rest: not if it was still on its way there
   /// when its steps ran out.
   bool has_arrived() const {
-    return stage_ == stages_.size() || rule().end == StageEnd::look ||
-           (rule().end == StageEnd::rest && steps_left() <= 0);
+    if (stage_ == stages_.size()) return true;
+    const bool ends_in_a_test =
+        rule().end == StageEnd::look || (rule().end == StageEnd::rest && is_to_be_tested());
+    return ends_in_a_test && steps_left() <= 0;
   }
 
   /// Reports on a bed that has come to rest, or has no steps left. Grains that slept until then
@@ -512,14 +517,18 @@ class Settling {
     return false;
   }
 
-  /// Stage after stage, until the bed rests, the steps run out or the observer stops it.
+  /// Stage after stage, until the bed rests, the steps run out or the observer stops it. No bed
+  /// that settles depends on how many steps there are: one that has none for another round is given
+  /// up.
   void come_to_rest() {
     while (goes_on()) {
-      if (is_over()) {
-        enter(is_brought_to_rest() ? stages_.size() : next_stage());
-      } else {
+      if (!is_over()) {
         report_.cancelled = !take_step();
+        continue;
       }
+      const std::size_t next = is_brought_to_rest() ? stages_.size() : next_stage();
+      if (next < stage_ && !has_steps_to_go_on()) return;
+      enter(next);
     }
   }
 

@@ -98,7 +98,7 @@ Left left_of(const std::string& folder, const Outcomes& made, const std::vector<
   }
   const KnownBeds beds = known_beds(folder, made, pending);
   for (std::size_t k = 0; k < pending.size(); ++k) {
-    if (!beds.contains(pending[k]->bed)) continue;
+    if (!beds.contains(pending[k]->id)) continue;
     left.costs[k].cpu_seconds *= share_of_measuring;
     ++left.of_known_beds;
   }

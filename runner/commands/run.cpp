@@ -137,7 +137,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
 bool put_off_others_of_a_bed(RunningSweep& running) {
   std::unordered_set<std::uint64_t> beds;
   return std::erase_if(running.pending, [&](const Job* job) {
-           return !running.beds.contains(job->bed) && !beds.insert(job->bed).second;
+           return !running.beds.contains(job->id) && !beds.insert(job->settled_bed).second;
          }) > 0;
 }
 
@@ -191,11 +191,11 @@ Packed pack(RunningSweep& running, const std::function<PackingNames()>& names,
               << " packings are done, going on\n";
   }
   const auto known = std::count_if(running.pending.begin(), running.pending.end(),
-                                   [&](auto* job) { return running.beds.contains(job->bed); });
+                                   [&](auto* job) { return running.beds.contains(job->id); });
   if (known > 0 && !options.quiet) {
     std::cerr << counted(static_cast<std::size_t>(known), "packing")
-              << (known == 1 ? " differs from a stored one in what is measured alone: its bed is"
-                             : " differ from stored ones in what is measured alone: their beds are")
+              << (known == 1 ? " has the bed of a stored one, which is"
+                             : " have the beds of stored ones, which are")
               << " measured again\n";
   }
   const Limits limits{run.threads, memory_for_packings()};

@@ -1,8 +1,9 @@
 // Beds that are stored already, under the id of another packing: of one that differs in what is
-// measured alone. They are measured again, not packed.
+// measured alone, or in accuracy.max_steps if it settled. They are measured again, not packed.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -15,8 +16,11 @@
 
 namespace grainsweep {
 
-/// The packing that each bed was stored with, by Job::bed.
-using KnownBeds = std::unordered_map<std::uint64_t, Outcome>;
+/// The packing that the bed of a job was stored with, by Job::id.
+using KnownBeds = std::unordered_map<std::string, std::shared_ptr<const Outcome>>;
+
+/// What a packing's bed is known by: Job::settled_bed if it settled, else Job::bed.
+std::uint64_t name_of_bed(const Job& job, const PackingResult& result);
 
 /// Those that pending packings have in common with stored ones of this version of the program, if
 /// these were measured and have a sound bed with grains in `folder`.

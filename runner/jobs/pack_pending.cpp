@@ -66,7 +66,7 @@ Outcome store(const Job& job, ShardFiles& files, Finished&& finished, bool no_gr
   outcome.cpu_seconds = finished.cpu_seconds;
   outcome.finished_at = calendar_seconds();
   if (!finished.packing.grains.empty()) {
-    if (!no_grains) outcome.bed = job.bed;
+    if (!no_grains) outcome.bed = name_of_bed(job, outcome.result);
     files.add_bed(bed_of(job, outcome.result, std::move(finished.packing), no_grains), outcome);
   }
   files.add(outcome);
@@ -119,7 +119,7 @@ class Packer {
   Packing make_one(std::size_t task, ThreadTeam& team, const KeepGoing& keep_going) {
     const Job& job = *running_.pending[task];
     if (auto measured = measured_from(running_.beds, running_.folder, job, kernels_)) {
-      before_[task] = {0, running_.beds.at(job.bed).cpu_seconds, true};
+      before_[task] = {0, running_.beds.at(job.id)->cpu_seconds, true};
       return std::move(*measured);
     }
     CheckpointFiles files = checkpoints_of(job);
@@ -207,7 +207,7 @@ class Packer {
     finished.cpu_seconds += before_[task].cpu_seconds;
     const bool lacked_memory = finished.lacked_memory;
     const Outcome outcome = store(job, running_.files, std::move(finished), options_.no_grains);
-    if (!outcome.exception && !running_.beds.contains(job.bed)) {
+    if (!outcome.exception && !running_.beds.contains(job.id)) {
       const std::scoped_lock lock(learning_);
       running_.estimates.add(costs_[task].cpu_seconds, outcome.cpu_seconds);
     }

@@ -122,6 +122,7 @@ class Expansion {
     if (is_listed) resolved.fill_content = "one per replicate";
     const std::string identity = canonical_parameters(resolved);
     const JobHash id(identity), bed(canonical_bed(resolved));
+    const JobHash settled_bed(canonical_settled_bed(resolved));
     std::string parameters = identity;
     if (is_listed) {
       resolved.fill_content = hash_of(starts);
@@ -146,6 +147,7 @@ class Expansion {
                          : of_parameters(job.seed, job.replicate);
       };
       job.bed = hash_with(bed);
+      job.settled_bed = hash_with(settled_bed);
       add(index, job, hash_with(id));
     }
   }

@@ -85,6 +85,10 @@ void change_groups(const GroupNames& open, const GroupNames& groups, std::string
 
 bool is_of_bed(const Parameter& parameter) { return !parameter.path.starts_with("measure."); }
 
+bool is_of_settled_bed(const Parameter& parameter) {
+  return is_of_bed(parameter) && parameter.path != "accuracy.max_steps";
+}
+
 bool is_of_scene(const Parameter& parameter) {
   return is_of_bed(parameter) && !parameter.path.starts_with("accuracy.");
 }
@@ -149,6 +153,11 @@ std::string canonical_parameters(const ResolvedSpec& resolved) {
 
 std::string canonical_bed(const ResolvedSpec& resolved) {
   static const std::vector<Member> members = members_where(is_of_bed);
+  return canonical(members, resolved);
+}
+
+std::string canonical_settled_bed(const ResolvedSpec& resolved) {
+  static const std::vector<Member> members = members_where(is_of_settled_bed);
   return canonical(members, resolved);
 }
 

@@ -52,5 +52,6 @@ std::string canonical_scene(const ResolvedSpec& resolved);
 
 /// Those that say what bed comes to rest: all but "measure".
 std::string canonical_bed(const ResolvedSpec& resolved);
+std::string canonical_settled_bed(const ResolvedSpec& resolved);  ///< without accuracy.max_steps
 
 }  // namespace grainsweep

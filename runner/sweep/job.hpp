@@ -22,9 +22,11 @@ struct Job {
   int replicate = 1;       ///< 1 .. replicates
   std::uint64_t seed = 0;  ///< master seed it was made with
   PackingSpec spec;        ///< random_key: of scene, master seed and replicate
-  /// The same as `id` without what is measured: jobs that have it in common come to rest as one
-  /// bed.
+  /// The same as `id` without what is measured: jobs that have it in common end as one bed.
   std::uint64_t bed = 0;
+  /// The same without accuracy.max_steps, on which no bed that settles depends: jobs that have it
+  /// in common settle as one bed if they have the steps for it.
+  std::uint64_t settled_bed = 0;
   /// Files it was read from, as written, by the parameter that each gave: "fill.file".
   std::map<std::string, std::string> files = {};
   /// Requested of its group, which grows until half of the 95 % interval of its means, including

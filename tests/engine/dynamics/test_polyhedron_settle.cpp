@@ -67,6 +67,24 @@ TEST_CASE("a bed of pinacoids whose forces balance less closely than is asked fo
   CHECK(is_refused);
 }
 
+TEST_CASE("a bed of pinacoids that settles is the same whatever steps are left") {
+  PackingSpec spec = small_pinacoids();
+  spec.box = {4, 4, periodic, walls};
+  spec.fill = GrainCount{40};
+  auto whole = start<Polyhedron>(spec);
+  REQUIRE(whole);
+  const SettleReport expected = settle(spec.accuracy, kernels(), *whole, always);
+  REQUIRE(expected.failure == "");
+  for (const int more : {-1, 0, 1, 3}) {
+    INFO("steps left: " << more);
+    spec.accuracy.max_steps = static_cast<int>(expected.steps) + more;
+    auto bed = start<Polyhedron>(spec);
+    REQUIRE(bed);
+    CHECK(settle(spec.accuracy, kernels(), *bed, always).failure.empty() == (more >= 0));
+    if (more >= 0) CHECK(state_hash(*bed) == state_hash(*whole));
+  }
+}
+
 TEST_CASE("a bed of hulls, which have no closed form, settles too", "[slow]") {
   PackingSpec spec = small_pinacoids();
   spec.shape = testing::asked_for(pinacoid({1, 1, 0.7, 1.2}).vertices);

@@ -171,6 +171,27 @@ TEST_CASE("a bed that runs out of steps says which test of rest it failed") {
   }
 }
 
+TEST_CASE("a bed that settles is the same whatever steps are left, and with one less it does not") {
+  int rounds_on = 0;
+  for (const std::uint64_t key : {1U, 2U, 3U, 4U}) {
+    INFO("key " << key);
+    Accuracy accuracy = *preset("fast");
+    accuracy.imbalance_tolerance = 0.01;  // so closely that some beds have to slide on
+    SphereBed whole = small_bed(key);
+    const SettleReport expected = settle_bed(whole, accuracy);
+    REQUIRE(expected.failure == "");
+    rounds_on += expected.steps > 400 ? 1 : 0;
+    for (const int more : {-1, 0, 1, 3, 30}) {
+      INFO("steps left: " << more);
+      accuracy.max_steps = static_cast<int>(expected.steps) + more;
+      SphereBed bed = small_bed(key);
+      CHECK(settle_bed(bed, accuracy).failure.empty() == (more >= 0));
+      if (more >= 0) CHECK(state_hash(bed) == state_hash(whole));
+    }
+  }
+  CHECK(rounds_on > 0);
+}
+
 // Its contacts are nearly as many as at rest half way through its creep, and its tolerances are
 // wide.
 TEST_CASE("a bed whose steps run out on its way to rest is not at rest, whatever tests it passes") {

@@ -152,6 +152,7 @@ TEST_CASE("a bed that is known is measured again, and its packing is told what i
   Sweep sweep = sweep_of_a_small_bed();
   Job& job = sweep.jobs[0];
   job.bed = 7;
+  job.settled_bed = 7;
   PackOptions options;
   options.isa = Isa::sse2;
   RunningSweep first{folder.path(), files, 0, {&job}, {}};

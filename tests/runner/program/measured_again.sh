@@ -42,7 +42,7 @@ expect_code 0 "$program" run after.json --out fresh --no-report --tolerate-unset
 expect_code 0 "$program" plan after.json --out both
 expect_text error.txt "12 packings left, 12 of stored beds, to be measured again"
 expect_code 0 "$program" run after.json --out both --no-report --tolerate-unsettled
-expect_text error.txt "12 packings differ from stored ones in what is measured alone" \
+expect_text error.txt "12 packings have the beds of stored ones, which are measured again" \
   "12 stored packings are of another sweep or of another form of this one: kept, but in no table"
 [ "$(grep -c ', measured again$' error.txt)" -eq 12 ] || fail "not all were measured again: $(cat error.txt)"
 tables_of fresh >fresh.txt
@@ -71,13 +71,25 @@ expect_code 0 "$program" run after.json --out bare --no-report --tolerate-unsett
 if grep -q "measured again" error.txt; then fail "beds without grains were measured again"; fi
 diff fresh.txt <(tables_of bare) >&2 || fail "packings made anew have other values"
 
+# With more steps at most, packings that have settled stay as they are.
+steps_at_most() { sed "s/\"accuracy\": \"fast\"/\"accuracy\": { \"preset\": \"fast\", \"max_steps\": $1 }/" before.json >steps.json; }
+steps_at_most 420
+expect_code 0 "$program" run steps.json --out steps --no-report --tolerate-unsettled
+settled="$(grep -c '"status":"settled"' <(packing_lines steps))"
+[ "$settled" -gt 0 ] && [ "$settled" -lt 12 ] || fail "$settled of 12 settled in 420 steps"
+steps_at_most 20000
+expect_code 0 "$program" run steps.json --out steps --no-report --tolerate-unsettled
+[ "$(grep -c ', measured again$' error.txt)" -eq "$settled" ] || fail "others were packed anew: $(cat error.txt)"
+expect_code 0 "$program" run steps.json --out at_once --no-report --tolerate-unsettled
+diff <(tables_of at_once) <(tables_of steps) >&2 || fail "beds that had settled have other values"
+
 # A bed that is not sound is packed anew, and not said to be measured.
 cp -r once cut && truncate -s 100 cut/shards/1-of-1.beds
 sed 's/\[0.5, 1, 1.5\]/[0.7]/' several.json >another.json
 expect_code 0 "$program" run another.json --out once --no-report --tolerate-unsettled
-expect_text error.txt "2 packings differ from stored ones"
+expect_text error.txt "2 packings have the beds of stored ones"
 expect_code 0 "$program" run another.json --out cut --no-report --tolerate-unsettled
-if grep -q "differ from stored ones\|measured again" error.txt; then fail "cut beds were measured: $(cat error.txt)"; fi
+if grep -q "of stored ones\|measured again" error.txt; then fail "cut beds were measured: $(cat error.txt)"; fi
 diff <(tables_of once) <(tables_of cut) >&2 || fail "beds packed anew have other values"
 
 # Where the first packing of a bed is too low to be measured, the others are packed.

@@ -68,6 +68,15 @@ TEST_CASE("packings have a bed in common if they differ in what is measured alon
   CHECK(beds.size() == 7);
 }
 
+TEST_CASE("packings that settle have a bed in common if they differ in max_steps alone") {
+  const std::vector<Job> jobs = jobs_of(sweep_of(R"({"set": {"accuracy.max_steps": 5000}},
+    {"set": {"accuracy.max_steps": 6000}}, {"set": {"accuracy.step": 0.1}})"));
+  REQUIRE(jobs.size() == 3);
+  CHECK(jobs[0].bed != jobs[1].bed);
+  CHECK(jobs[0].settled_bed == jobs[1].settled_bed);
+  CHECK(jobs[0].settled_bed != jobs[2].settled_bed);
+}
+
 TEST_CASE("every parameter of the scene, seed and replicate change where a packing starts") {
   const auto key = [](const std::string& text) { return jobs_of(text).back().spec.random_key; };
   const std::set<std::uint64_t> keys = {
