@@ -89,7 +89,7 @@ void measure_neighbours(const PackingSpec& packing, const Touching& near,
   for (const double tolerance : spec.gap_tolerances) {
     result.coordination.push_back(coordination(bed, near, slab, tolerance));
   }
-  result.order = measure_order(bed, near, forces, slab, bins_of(packing));
+  result.order = measure_order(bed, near, forces, slab, bins_of(packing), result);
 }
 
 /// A grain of size 1 of one component.
@@ -299,10 +299,7 @@ Packing pack(const PackingSpec& spec, const ExecutionContext& context, const Kee
   Packing packing;
   packing.result = result_of(spec.fill, *bed, settled);
   if (settled.cancelled) return packing;
-  packing.forces = std::move(settled.pair_forces);
-  packing.wall_forces = std::move(settled.wall_forces);
-  packing.lines = std::move(settled.pair_lines);
-  packing.wall_lines = std::move(settled.wall_lines);
+  static_cast<BedForces&>(packing) = static_cast<BedForces&&>(settled);
   measure(spec, settled.force, context.kernels, *bed, packing);
   return packing;
 }
@@ -329,31 +326,14 @@ bool lay_as(const Packing& made, Grains& bed) {
   return true;
 }
 
-/// What settling alone decides.
-PackingResult settled_part(const PackingResult& made) {
-  PackingResult result;
-  result.status = made.status;
-  result.reason = made.reason;
-  result.grains = made.grains;
-  result.rest = made.rest;
-  result.spurious_path = made.spurious_path;
-  result.steps = made.steps;
-  result.iterations = made.iterations;
-  result.state_hash = made.state_hash;
-  return result;
-}
-
 template <class Kind>
 std::optional<Packing> measured_again(const PackingSpec& spec, const Kernels& kernels,
                                       const Packing& made) {
   std::optional<Bed<Kind>> bed = start<Kind>(spec);
   if (!bed || !lay_as(made, *bed) || !turn_as(made, *bed)) return std::nullopt;
   Packing packing;
-  packing.result = settled_part(made.result);
-  packing.forces = made.forces;
-  packing.wall_forces = made.wall_forces;
-  packing.lines = made.lines;
-  packing.wall_lines = made.wall_lines;
+  static_cast<SettledPart&>(packing.result) = made.result;
+  static_cast<BedForces&>(packing) = made;
   std::vector<double> force;
   force.reserve(made.grains.size());
   for (const SettledGrain& grain : made.grains) force.push_back(grain.force);

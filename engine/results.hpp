@@ -75,8 +75,8 @@ struct Coordination {
 /// A force that two grains exert on each other.
 struct PairForce {
   std::int32_t a = 0, b = 0;
-  double height = 0.0;     ///< mean z of the two centres, d
   double magnitude = 0.0;  ///< m g
+  double height = 0.0;     ///< mean z of the two centres, d
 };
 
 /// A force that a wall exerts on a grain; in a tube each vertex of a polyhedron has its own.
@@ -101,6 +101,14 @@ inline constexpr std::int32_t tube_wall = 1;
 /// The same for vertex `v` of a polyhedron, numbered as in ConvexShape::vertices and
 /// Mesh::vertices.
 constexpr std::int32_t wall_of_vertex(std::int32_t v) { return tube_wall + 1 + v; }
+
+/// The forces of a bed, of its last step.
+struct BedForces {
+  std::vector<PairForce> forces;  ///< between the grains
+  std::vector<WallForce> wall_forces;
+  /// Of each of `forces` and of `wall_forces`; empty if the grains are spheres.
+  std::vector<ForceLine> lines, wall_lines;
+};
 
 /// One bin of a profile: a slice of the measured part of the bed.
 struct ProfileBin {
@@ -149,48 +157,15 @@ struct SizeRow {
   double slab = 0.0;      ///< of those whose centre lies in the measured slab
 };
 
-/// Order, forces and sizes in the measured slab; order_numbers says what each number is. One that
-/// the slab does not give is NaN.
+/// Order, forces and sizes in the measured slab. A number that the slab does not give is NaN.
 struct Order {
-  double q6_global = 0.0;
-  double q6_local = 0.0;
-  double three_contact_share = 0.0;
-  double segregation = 0.0;
-  double force_mean = 0.0;
-  double force_square = 0.0;
-  Curve pair_correlation;  ///< g over distance, d
-  Curve force_density;     ///< probability density of a force over the mean of its layer
-};
-
-/// A number of a part of a result, with the name and explanation that tables and the manual give
-/// it.
-template <class Part>
-struct NamedNumber {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-  double Part::*value;
-};
-
-inline constexpr NamedNumber<Order> order_numbers[] = {
-    {"q6_global", "",
-     "bond order of the bonds of all grains in the slab together, one between two of them twice; 0 "
-     "if they point anywhere",
-     &Order::q6_global},
-    {"q6_local", "", "bond order of a grain's own bonds, mean over grains", &Order::q6_local},
-    {"three_contact_share", "", "grains that touch exactly three others, walls included",
-     &Order::three_contact_share},
-    {"segregation", "",
-     "mean height of small less that of large grains in the slab, in its heights",
-     &Order::segregation},
-    {"force_mean", "m g",
-     "of the force-bearing contacts between grains midway between whose centres the slab is",
-     &Order::force_mean},
-    {"force_square", "",
-     "mean square of a contact force over the mean of its layer, 1 d thick, counted from the "
-     "slab's "
-     "bottom by the middle of both centres",
-     &Order::force_square},
+  double q6_global = 0.0;  ///< bond order of the bonds of all grains together; 0 if they point
+                           ///< anywhere
+  double q6_local = 0.0;   ///< that of a grain's own bonds, mean over grains
+  double three_contact_share = 0.0;  ///< grains that touch exactly three others, walls included
+  double segregation = 0.0;   ///< mean height of small less that of large grains, in slab heights
+  double force_mean = 0.0;    ///< of the force-bearing contacts between grains, m g
+  double force_square = 0.0;  ///< mean square of a contact force over the mean of its layer
 };
 
 /// How polyhedra touch and point, in the measured slab. A contact is simple at a point, double
@@ -225,7 +200,21 @@ struct ComponentMeasure {
   ComponentProfile profile_z = {};
 };
 
-struct PackingResult {
+/// The curves and lists of a packing, by far the largest part of what is measured. Empty if nothing
+/// was measured.
+struct Curves {
+  Profile profile_x;           ///< from wall to wall, in the slab; empty without walls and in tubes
+  Profile profile_y;           ///< the same along y, from wall to wall or around; empty in tubes
+  Profile profile_from_walls;  ///< from the nearest wall inwards; only in ducts and tubes
+  Profile profile_z;           ///< from the floor up
+  Curve pair_correlation;      ///< g over distance, d, in the slab
+  Curve force_density;         ///< probability density of a force over the mean of its layer
+  std::vector<SizeRow> sizes;  ///< from fine to coarse; empty without a distribution
+  std::vector<ComponentMeasure> components;  ///< of a mixture, in its order; else empty
+};
+
+/// What settling alone decides of a packing, whatever is measured of it.
+struct SettledPart {
   PackingStatus status = PackingStatus::failed;
   std::string reason;  ///< empty when settled
   std::int64_t grains = 0;
@@ -235,6 +224,12 @@ struct PackingResult {
   /// square of the step and the number of these rows over that of all degrees of freedom. It is an
   /// error of the solid fraction: engine/dynamics/sleep.hpp.
   double spurious_path = 0.0;
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::uint64_t state_hash = 0;  ///< of the final positions, orientations and radii
+};
+
+struct PackingResult : SettledPart, Curves {
   double surface_height = 0.0;  ///< z of the bed's free surface, d
   double slab_bottom = 0.0;     ///< measured slab, d
   double slab_top = 0.0;
@@ -247,17 +242,8 @@ struct PackingResult {
   /// 6 times the volume of all grains over their surface, d: of equal spheres their diameter. A bed
   /// holds 6 solid_fraction / sauter_diameter of surface in its volume.
   std::optional<double> sauter_diameter;
-  std::vector<SizeRow> sizes;  ///< from fine to coarse; empty without a distribution
-  Profile profile_x;           ///< from wall to wall, in the slab; empty without walls and in tubes
-  Profile profile_y;           ///< the same along y, from wall to wall or around; empty in tubes
-  Profile profile_from_walls;  ///< from the nearest wall inwards; only in ducts and tubes
-  Profile profile_z;           ///< from the floor up
-  Order order;                 ///< of the slab
-  std::optional<ShapeOrder> shape_order;     ///< of non-spherical grains
-  std::vector<ComponentMeasure> components;  ///< of a mixture, in its order; else empty
-  std::int64_t steps = 0;
-  std::int64_t iterations = 0;
-  std::uint64_t state_hash = 0;  ///< of the final positions, orientations and radii
+  Order order;                            ///< of the slab
+  std::optional<ShapeOrder> shape_order;  ///< of non-spherical grains
 };
 
 /// A grain of the finished bed, as `export` writes it.
@@ -290,17 +276,17 @@ struct Turned {
   const Mesh& mesh(std::size_t grain) const { return meshes[component(grain)]; }
 };
 
-struct Packing {
-  PackingResult result;
+/// A finished bed: what can be exported, and measured again.
+struct SettledBed : BedForces {
   std::vector<SettledGrain> grains;  ///< in the order of the start, empty unless a bed exists
   std::optional<Turned> turned;      ///< unless they are spheres
   /// The same orientations of polyhedra from the principal axes of their shapes, as their bed has
   /// them: what it is rebuilt from.
   std::vector<std::array<double, 4>> axes;
-  std::vector<PairForce> forces;  ///< between the grains
-  std::vector<WallForce> wall_forces;
-  std::vector<ForceLine> lines;       ///< of each of `forces`, empty if they are spheres
-  std::vector<ForceLine> wall_lines;  ///< of each of `wall_forces`, in the same way
+};
+
+struct Packing : SettledBed {
+  PackingResult result;
 };
 
 /// Where a packing stands; `share_done` is an estimate in [0, 1] that never falls.

@@ -29,8 +29,7 @@ void add_settled(const std::string& folder, const std::string& job, double solid
                  double cpu_seconds) {
   Outcome outcome = sample_outcome(job, solid_fraction, 6.0);
   outcome.cpu_seconds = cpu_seconds;
-  add_stored_bed(folder, {job, outcome.result.state_hash, {}, sample_curves(), {}, {}, {}, {}},
-                 outcome);
+  add_stored_bed(folder, bed_of(outcome, 0, sample_curves()), outcome);
   add_outcomes(folder, {outcome});
 }
 

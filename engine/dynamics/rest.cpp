@@ -272,7 +272,7 @@ WithLines<PairForce> pair_forces(const Grains& bed, const std::vector<ForceConta
     const double height = (bed.position[static_cast<std::size_t>(c.a)].z +
                            bed.position[static_cast<std::size_t>(c.b)].z) /
                           2.0;
-    of_pairs.first.push_back({c.a, c.b, height, c.force});
+    of_pairs.first.push_back({c.a, c.b, c.force, height});
     if (!lines.empty()) of_pairs.second.push_back(lines[k]);
   }
   return of_pairs;

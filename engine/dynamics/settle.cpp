@@ -422,7 +422,7 @@ class Settling {
   void report_forces(const std::vector<ForceContact>& contacts,
                      const std::vector<ForceLine>& lines = {}) {
     report_.force = force_sums(bed_, contacts);
-    std::tie(report_.pair_forces, report_.pair_lines) = pair_forces(bed_, contacts, lines);
+    std::tie(report_.forces, report_.lines) = pair_forces(bed_, contacts, lines);
     std::tie(report_.wall_forces, report_.wall_lines) = wall_forces(bed_, contacts, lines);
   }
 

@@ -22,7 +22,7 @@
 
 namespace grainsweep {
 
-struct SettleReport {
+struct SettleReport : BedForces {
   RestReport rest;
   std::string failure;  ///< the test of rest that failed; empty if settled
   bool precision_insufficient =
@@ -35,10 +35,7 @@ struct SettleReport {
   double spurious_path = 0.0;  ///< sum of StepReport::spurious_path over all steps, d
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
-  std::vector<double> force;           ///< sum of contact force magnitudes on each grain, m g
-  std::vector<PairForce> pair_forces;  ///< of the last step
-  std::vector<WallForce> wall_forces;  ///< of the last step
-  std::vector<ForceLine> pair_lines, wall_lines;  ///< of these forces, unless they are spheres
+  std::vector<double> force;  ///< sum of contact force magnitudes on each grain, m g
 };
 
 /// Settles `bed`, whose numbers must be finite; if they cease to be, it ends at once and the bed is

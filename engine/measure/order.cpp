@@ -43,7 +43,7 @@ double segregation(const Grains& bed, const Slab& slab, double small_below) {
 
 Order measure_order(const Grains& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
-                    const ProfileSettings& settings) {
+                    const ProfileSettings& settings, Curves& curves) {
   const BondOrder bonds = bond_order(bed, near, slab);
   ForceStatistics forces = force_statistics(pair_forces, slab, force_bin, largest_force);
   Order order;
@@ -53,8 +53,8 @@ Order measure_order(const Grains& bed, const Touching& near,
   order.segregation = segregation(bed, slab, settings.small_below);
   order.force_mean = forces.mean;
   order.force_square = forces.square;
-  order.pair_correlation = pair_correlation(bed, slab, distance_bin, largest_distance);
-  order.force_density = std::move(forces.density);
+  curves.pair_correlation = pair_correlation(bed, slab, distance_bin, largest_distance);
+  curves.force_density = std::move(forces.density);
   return order;
 }
 

@@ -36,7 +36,7 @@ void add(const Sides& sides, double magnitude, const std::vector<ForceLine>& lin
 Forces forces_of_grains(const StoredBed& bed) {
   Forces forces;
   for (std::size_t k = 0; k < bed.forces.size(); ++k) {
-    const StoredForce& force = bed.forces[k];
+    const PairForce& force = bed.forces[k];
     add(std::minmax(force.a, force.b), force.magnitude, bed.lines, k, forces);
   }
   return forces;

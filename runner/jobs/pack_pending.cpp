@@ -44,15 +44,12 @@ std::string went_on_text(std::int64_t step) {
 
 /// What is to be stored of a bed.
 StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing, bool no_grains) {
-  StoredBed bed{job.id, result.state_hash, job.spec.box, curves_of(result), {}, {}, {}, {}};
-  if (no_grains) return bed;
-  bed.grains = std::move(packing.grains);
-  bed.turned = std::move(packing.turned);
-  bed.forces = stored_forces(packing.forces);
-  bed.wall_forces = std::move(packing.wall_forces);
-  bed.lines = std::move(packing.lines);
-  bed.wall_lines = std::move(packing.wall_lines);
-  bed.axes = std::move(packing.axes);
+  StoredBed bed;
+  bed.job = job.id;
+  bed.state_hash = result.state_hash;
+  bed.box = job.spec.box;
+  bed.curves = result;
+  if (!no_grains) static_cast<SettledBed&>(bed) = static_cast<SettledBed&&>(packing);
   return bed;
 }
 

@@ -69,9 +69,9 @@ void append_word(std::string& bytes, std::int32_t number) {
 /// them.
 std::string forces_of(const StoredBed& bed, double largest_force) {
   std::string bytes;
-  for (const StoredForce& force : bed.forces) append_word(bytes, force.a);
-  for (const StoredForce& force : bed.forces) append_word(bytes, force.b);
-  for (const StoredForce& force : bed.forces) {
+  for (const PairForce& force : bed.forces) append_word(bytes, force.a);
+  for (const PairForce& force : bed.forces) append_word(bytes, force.b);
+  for (const PairForce& force : bed.forces) {
     append_short(bytes, std::lround(largest_unsigned * force.magnitude / largest_force));
   }
   return bytes;
@@ -100,7 +100,7 @@ std::string bed_element(const StoredBed& bed, const BedFacts& facts) {
   const double height =
       largest(bed, [](const SettledGrain& grain) { return grain.z + grain.radius; });
   double pair_force = 0.0;
-  for (const StoredForce& one : bed.forces) {
+  for (const PairForce& one : bed.forces) {
     pair_force = std::max(pair_force, one.magnitude);
   }
   const double extent = std::max({bed.box.length, bed.box.width, height});

@@ -63,7 +63,7 @@ Bars slice_bars(const std::vector<std::vector<MeanBin>>& slices, Spread MeanBin:
 
 std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
   std::string text = csv_line({"curve", "group", "x", "value", "error", "name"});
-  const auto add = [&](Curve Order::*curve, std::size_t first) {
+  const auto add = [&](Curve Curves::*curve, std::size_t first) {
     for (std::size_t k = 0; k < groups.size(); ++k) {
       for (const CurvePoint& point : mean_curve(*groups[k], curve)) {
         text += csv_line({cell(first + k), cell(groups[k]->number),
@@ -72,13 +72,13 @@ std::string curves_csv(const std::vector<GroupWithCurves>& groups) {
       }
     }
   };
-  add(&Order::pair_correlation, 1);
-  add(&Order::force_density, 1 + groups.size());
+  add(&Curves::pair_correlation, 1);
+  add(&Curves::force_density, 1 + groups.size());
   return text;
 }
 
 /// All values that the curves of these groups reach, and 0.
-std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Curve Order::*curve) {
+std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Curve Curves::*curve) {
   std::vector<double> values = {0.0};
   for (const GroupWithCurves& group : groups) {
     for (const CurvePoint& point : mean_curve(*group, curve)) values.push_back(point.value.mean);
@@ -89,7 +89,7 @@ std::vector<double> curve_values(const std::vector<GroupWithCurves>& groups, Cur
 /// How far the pair correlation of a group is known, d.
 double known_to(const Group& group) {
   double end = 0.0;
-  for (const CurvePoint& point : mean_curve(group, &Order::pair_correlation)) {
+  for (const CurvePoint& point : mean_curve(group, &Curves::pair_correlation)) {
     if (std::isfinite(point.value.mean)) end = std::max(end, point.high);
   }
   return end;
@@ -100,7 +100,7 @@ std::string force_ranges(const std::vector<GroupWithCurves>& groups) {
   constexpr double room = 1.5;  // a factor, for the scale is logarithmic
   double largest = 0.0, least = 1.0, most = 1.0;
   for (const GroupWithCurves& group : groups) {
-    for (const CurvePoint& point : mean_curve(*group, &Order::force_density)) {
+    for (const CurvePoint& point : mean_curve(*group, &Curves::force_density)) {
       if (!(point.value.mean > 0.0)) continue;
       largest = std::max(largest, point.high);
       least = std::min(least, point.value.mean);
@@ -261,7 +261,7 @@ Figure distributions_figure(const Axes& axes) {
       "set multiplot\n" + panels.key() + panels.place(0, 0) + range_command("x", {0.0, shown}) +
       label_command("x", "distance of centres, r / d") +
       label_command("y", "pair correlation g(r)") +
-      range_command("y", range_of(curve_values(groups, &Order::pair_correlation), 0.04)) +
+      range_command("y", range_of(curve_values(groups, &Curves::pair_correlation), 0.04)) +
       plot_command(pairs) + panels.place(1, 0) + force_ranges(groups) +
       "set logscale y\nset format y '10^{%T}'\n" +
       label_command("x", "force over the mean, f / <f>") +

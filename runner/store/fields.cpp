@@ -214,13 +214,31 @@ std::vector<Field> further_fields() {
   };
 }
 
-/// The numbers that the engine itself names.
 std::vector<Field> order_fields() {
-  const auto each = []<std::size_t... k>(std::index_sequence<k...>) {
-    return std::vector<Field>{in_result<of::order, order_numbers[k].value>(
-        order_numbers[k].name, order_numbers[k].unit, order_numbers[k].meaning, with_mean)...};
+  return {
+      in_result<of::order, &Order::q6_global>(
+          "q6_global", "",
+          "bond order of the bonds of all grains in the slab together, one between two of them "
+          "twice; 0 if they point anywhere",
+          with_mean),
+      in_result<of::order, &Order::q6_local>(
+          "q6_local", "", "bond order of a grain's own bonds, mean over grains", with_mean),
+      in_result<of::order, &Order::three_contact_share>(
+          "three_contact_share", "", "grains that touch exactly three others, walls included",
+          with_mean),
+      in_result<of::order, &Order::segregation>(
+          "segregation", "",
+          "mean height of small less that of large grains in the slab, in its heights", with_mean),
+      in_result<of::order, &Order::force_mean>(
+          "force_mean", "m g",
+          "of the force-bearing contacts between grains midway between whose centres the slab is",
+          with_mean),
+      in_result<of::order, &Order::force_square>(
+          "force_square", "",
+          "mean square of a contact force over the mean of its layer, 1 d thick, counted from the "
+          "slab's bottom by the middle of both centres",
+          with_mean),
   };
-  return each(std::make_index_sequence<std::size(order_numbers)>());
 }
 
 std::vector<Field> last_fields() {

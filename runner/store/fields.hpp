@@ -1,8 +1,8 @@
 // The one table of what is known of a finished packing: each value stands in it once, with name,
 // unit and meaning. The journal line and its reading, the columns of packings.csv and groups.csv,
 // columns.csv and the manual all come from it. A new number needs a member in the engine's result
-// and a line here; a number of the measured slab's Order needs a line beside its member instead
-// (engine/results.hpp, order_numbers).
+// and a line here, and is std::optional where journals of before have to be read that do not have
+// it.
 #pragma once
 
 #include <cstdint>

@@ -56,8 +56,9 @@ constexpr auto members_of(const Mesh* /*type*/) {
 constexpr auto members_of(const Turned* /*type*/) {
   return std::tuple(&Turned::meshes, &Turned::components, &Turned::orientations);
 }
-constexpr auto members_of(const StoredForce* /*type*/) {
-  return std::tuple(&StoredForce::a, &StoredForce::b, &StoredForce::magnitude);
+/// Its height follows from the grains.
+constexpr auto members_of(const PairForce* /*type*/) {
+  return std::tuple(&PairForce::a, &PairForce::b, &PairForce::magnitude);
 }
 constexpr auto members_of(const WallForce* /*type*/) {
   return std::tuple(&WallForce::grain, &WallForce::wall, &WallForce::magnitude);
@@ -85,53 +86,17 @@ constexpr std::string_view bed_mark = "GRAINS14\n";
 
 }  // namespace
 
-Curves curves_of(const PackingResult& result) {
-  return {result.profile_x,
-          result.profile_y,
-          result.profile_from_walls,
-          result.profile_z,
-          result.order.pair_correlation,
-          result.order.force_density,
-          result.sizes,
-          result.components};
-}
-
-void set_curves(Curves&& curves, PackingResult& result) {
-  result.profile_x = std::move(curves.profile_x);
-  result.profile_y = std::move(curves.profile_y);
-  result.profile_from_walls = std::move(curves.profile_from_walls);
-  result.profile_z = std::move(curves.profile_z);
-  result.order.pair_correlation = std::move(curves.pair_correlation);
-  result.order.force_density = std::move(curves.force_density);
-  result.sizes = std::move(curves.sizes);
-  result.components = std::move(curves.components);
-}
-
-std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces) {
-  std::vector<StoredForce> stored;
-  stored.reserve(forces.size());
-  for (const PairForce& force : forces) {
-    stored.push_back({force.a, force.b, force.magnitude});
-  }
-  return stored;
-}
-
 Packing packing_of(StoredBed&& bed, const PackingResult& result) {
   Packing packing;
   packing.result = result;
-  for (const StoredForce& force : bed.forces) {
-    const double height = (bed.grains[static_cast<std::size_t>(force.a)].z +
-                           bed.grains[static_cast<std::size_t>(force.b)].z) /
-                          2.0;
-    packing.forces.push_back({force.a, force.b, height, force.magnitude});
+  static_cast<Curves&>(packing.result) = std::move(bed.curves);
+  static_cast<SettledBed&>(packing) = static_cast<SettledBed&&>(bed);
+  const auto height_of = [&](std::int32_t grain) {
+    return packing.grains[static_cast<std::size_t>(grain)].z;
+  };
+  for (PairForce& force : packing.forces) {
+    force.height = (height_of(force.a) + height_of(force.b)) / 2.0;
   }
-  set_curves(std::move(bed.curves), packing.result);
-  packing.grains = std::move(bed.grains);
-  packing.turned = std::move(bed.turned);
-  packing.axes = std::move(bed.axes);
-  packing.wall_forces = std::move(bed.wall_forces);
-  packing.lines = std::move(bed.lines);
-  packing.wall_lines = std::move(bed.wall_lines);
   return packing;
 }
 

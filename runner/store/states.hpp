@@ -20,43 +20,13 @@
 
 namespace grainsweep {
 
-/// The curves and lists of a packing, by far the largest part of what is measured: kept with its
-/// grains, not in the journal. Members as in PackingResult and its Order; empty if nothing was
-/// measured.
-struct Curves {
-  Profile profile_x;
-  Profile profile_y;
-  Profile profile_from_walls;
-  Profile profile_z;
-  Curve pair_correlation;
-  Curve force_density;
-  std::vector<SizeRow> sizes;
-  std::vector<ComponentMeasure> components;
-};
-
-Curves curves_of(const PackingResult& result);
-void set_curves(Curves&& curves, PackingResult& result);
-
-/// A force that two grains exert on each other.
-struct StoredForce {
-  std::int32_t a = 0, b = 0;  ///< numbers of the grains, from 0
-  double magnitude = 0.0;     ///< m g
-};
-
-std::vector<StoredForce> stored_forces(const std::vector<PairForce>& forces);
-
-struct StoredBed {
+/// Without the grains and forces of a bed where these were not to be stored. Curves are kept here,
+/// not in the journal.
+struct StoredBed : SettledBed {
   std::string job;               ///< Job::id
   std::uint64_t state_hash = 0;  ///< PackingResult::state_hash
   Box box;
   Curves curves;
-  std::vector<SettledGrain> grains;
-  std::optional<Turned> turned;  ///< for non-spherical grains; an orientation per grain
-  std::vector<StoredForce> forces;
-  std::vector<WallForce> wall_forces;
-  /// One for each of `forces` and `wall_forces`; empty for spheres.
-  std::vector<ForceLine> lines = {}, wall_lines = {};
-  std::vector<std::array<double, 4>> axes = {};  ///< as in Packing
 };
 
 /// The packing that such a bed was stored of.

@@ -53,23 +53,23 @@ Columns<PointLine> curve_line_columns(const Varied& varied, const GivenUnits& un
   return columns;
 }
 
-void append_points(const Group& group, std::string_view name, Curve Order::*curve,
+void append_points(const Group& group, std::string_view name, Curve Curves::*curve,
                    std::vector<PointLine>& lines) {
   for (const CurvePoint& point : mean_curve(group, curve)) lines.push_back({group, name, point});
 }
 
 }  // namespace
 
-std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve) {
+std::vector<CurvePoint> mean_curve(const Group& group, Curve Curves::*curve) {
   std::size_t longest = 0;
   double width = 0.0;
   for (const Outcome& outcome : group.settled) {
-    const Curve& one = outcome.result.order.*curve;
+    const Curve& one = outcome.result.*curve;
     longest = std::max(longest, one.values.size());
     width = one.bin_width;
   }
   const auto values_of = [&](const PackingResult& result) -> const std::vector<double>& {
-    return (result.order.*curve).values;
+    return (result.*curve).values;
   };
   std::vector<CurvePoint> points;
   for (std::size_t k = 0; k < longest; ++k) {
@@ -84,8 +84,8 @@ CurveTable distributions_table(const Varied& varied, const GivenUnits& units) {
   const auto columns = curve_line_columns(varied, units);
   return curve_table("distributions.csv", columns, [](const Group& group) {
     std::vector<PointLine> lines;
-    append_points(group, pair_correlation, &Order::pair_correlation, lines);
-    append_points(group, "force_density", &Order::force_density, lines);
+    append_points(group, pair_correlation, &Curves::pair_correlation, lines);
+    append_points(group, "force_density", &Curves::force_density, lines);
     return lines;
   });
 }

@@ -16,7 +16,7 @@ struct CurvePoint {
 
 /// The mean of `curve` over the settled packings of a group; bins that some of them do not have are
 /// averaged over those that do.
-std::vector<CurvePoint> mean_curve(const Group& group, Curve Order::*curve);
+std::vector<CurvePoint> mean_curve(const Group& group, Curve Curves::*curve);
 
 CurveTable distributions_table(const Varied& varied, const GivenUnits& units = {});
 

@@ -204,7 +204,8 @@ GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
   outcomes_.assign(group_.settled.begin(), group_.settled.end());
   group_.settled.assign(outcomes_.begin(), outcomes_.end());
   for (Outcome& outcome : outcomes_) {
-    if (outcome.stored_bytes > 0) set_curves(read_bed(folder, outcome).curves, outcome.result);
+    if (outcome.stored_bytes > 0)
+      static_cast<Curves&>(outcome.result) = read_bed(folder, outcome).curves;
   }
 }
 

@@ -371,7 +371,7 @@ TEST_CASE("a bed is measured again as if it had been packed so") {
     CHECK(result.solid_fraction == wanted.solid_fraction);
     CHECK(result.solid_fraction != made.result.solid_fraction);
     CHECK(result.coordination.back().with_walls == wanted.coordination.back().with_walls);
-    CHECK(result.order.force_density.values == wanted.order.force_density.values);
+    CHECK(result.force_density.values == wanted.force_density.values);
     CHECK(result.profile_y.bins.size() == 16);
     CHECK(result.rest.contacts == wanted.rest.contacts);
     CHECK(result.steps == wanted.steps);

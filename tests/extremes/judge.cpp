@@ -72,7 +72,7 @@ SettledBed settle_scene(SphereBed bed, const Accuracy& accuracy) {
   SettledBed settled{std::move(bed), accuracy, {}, {}};
   settled.report =
       settle(accuracy, kernels_for(best_isa()), settled.bed, [](const Progress&) { return true; });
-  collect_forces(settled.report.pair_forces, settled.report.wall_forces, settled);
+  collect_forces(settled.report.forces, settled.report.wall_forces, settled);
   return settled;
 }
 

@@ -26,6 +26,16 @@ inline void add_outcomes(const std::string& folder, const std::vector<Outcome>& 
   files.flush();
 }
 
+/// The bed of an outcome with so many grains and these curves.
+inline StoredBed bed_of(const Outcome& outcome, std::size_t grains = 1, Curves curves = {}) {
+  StoredBed bed;
+  bed.job = outcome.job;
+  bed.state_hash = outcome.result.state_hash;
+  bed.grains.resize(grains);
+  bed.curves = std::move(curves);
+  return bed;
+}
+
 /// Adds a bed, and tells the outcome where.
 inline void add_stored_bed(const std::string& folder, const StoredBed& bed, Outcome& outcome,
                            const Shard& shard = {}) {

@@ -101,11 +101,11 @@ TEST_CASE("forces of a settled stack are those on its grains and between them") 
   accuracy.precision = Precision::f64;
   accuracy.residual_tolerance = 5e-3;
   const SettleReport report = settle(accuracy, kernels(), bed, always);
-  REQUIRE(report.pair_forces.size() == 1);
+  REQUIRE(report.forces.size() == 1);
   // Forces are true to the residual asked for, for each of the four points of a face.
   const double margin = 4 * accuracy.residual_tolerance;
-  CHECK(report.pair_forces[0].magnitude == about(1, margin));
-  CHECK(report.pair_forces[0].height == about(1, 1e-3));
+  CHECK(report.forces[0].magnitude == about(1, margin));
+  CHECK(report.forces[0].height == about(1, 1e-3));
   CHECK(report.force[0] == about(3, 2 * margin));
   CHECK(report.force[1] == about(1, margin));
 }

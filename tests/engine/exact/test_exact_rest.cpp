@@ -28,7 +28,7 @@ SphereBed settled_bed(PackingSpec spec, std::vector<ForceContact>& contacts) {
   SphereBed bed = start<Sphere>(spec).value();
   const SettleReport report = settle(spec.accuracy, testing::kernels(), bed, always);
   REQUIRE(report.failure == "");
-  for (const PairForce& force : report.pair_forces) {
+  for (const PairForce& force : report.forces) {
     contacts.push_back({force.a, force.b, force.magnitude});
   }
   return bed;

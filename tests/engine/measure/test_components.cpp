@@ -72,7 +72,7 @@ std::vector<ForceLine> lines_over(const std::vector<int>& constraints) {
 TEST_CASE("contacts of two components stand with both, by their kind, if they are in the slab") {
   const PolyhedronBed bed = stacks();
   const std::vector<PairForce> forces = {
-      {0, 2, 1.0, 1}, {3, 1, 1.0, 1}, {3, 1, 1.2, 1}, {0, 4, 1.9, 1}, {3, 4, 2.1, 1}};
+      {0, 2, 1, 1.0}, {3, 1, 1, 1.0}, {3, 1, 1, 1.2}, {0, 4, 1, 1.9}, {3, 4, 1, 2.1}};
   const auto lines = lines_over({3, 3, 1, 2, 3});
   const auto components = measure_components(bed, {}, forces, lines, {0, 2}, 0.01);
   using Kinds = std::vector<std::array<std::int64_t, 3>>;
@@ -97,7 +97,7 @@ TEST_CASE("the kinds of contact of each two components are those of a count over
   std::vector<int> kinds;
   for (int k = 0; k < 500; ++k) {
     const auto any_grain = [&] { return static_cast<std::int32_t>(draw.uniform(0, grains)); };
-    forces.push_back({any_grain(), any_grain(), draw.uniform(1, 4), draw.uniform(0, 9)});
+    forces.push_back({any_grain(), any_grain(), draw.uniform(0, 9), draw.uniform(1, 4)});
     kinds.push_back(1 + static_cast<int>(draw.uniform(0, 3)));
   }
   const auto measured = measure_components(bed, {}, forces, lines_over(kinds), slab, 0.01);

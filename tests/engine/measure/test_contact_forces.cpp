@@ -16,7 +16,7 @@ TEST_CASE("forces are taken relative to their layer, whose mean grows with depth
   std::vector<PairForce> forces;
   for (int k = 0; k < 40000; ++k) {
     const double height = 3 + k % 10 + 0.5;
-    forces.push_back({0, 1, height, (20 - height) * exponential(generator)});
+    forces.push_back({0, 1, (20 - height) * exponential(generator), height});
   }
   const ForceStatistics statistics = force_statistics(forces, {3, 13}, 0.1, 8);
   CHECK(statistics.mean == Approx(12).epsilon(0.02));
@@ -34,7 +34,7 @@ TEST_CASE("forces are taken relative to their layer, whose mean grows with depth
 }
 
 TEST_CASE("forces outside the slab do not count, and none at all give no mean") {
-  const std::vector<PairForce> forces = {{0, 1, 2.9, 5}, {1, 2, 3.0, 1}, {2, 3, 4.0, 7}};
+  const std::vector<PairForce> forces = {{0, 1, 5, 2.9}, {1, 2, 1, 3.0}, {2, 3, 7, 4.0}};
   const ForceStatistics statistics = force_statistics(forces, {3, 4}, 0.5, 2);
   CHECK(statistics.mean == 1);
   CHECK(statistics.density.values == std::vector<double>{0, 0, 2, 0});

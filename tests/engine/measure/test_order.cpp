@@ -38,15 +38,16 @@ TEST_CASE("segregation is the rise of the small grains over the large ones in sl
 TEST_CASE("a crystal at rest has its order, its forces and its distances") {
   SphereBed bed = testing::fcc_bed(3, 3, 5);
   const Touching touching = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
-  const std::vector<PairForce> forces = {{0, 1, 2.0, 1.0}, {1, 2, 3.0, 3.0}};
-  const Order order = measure_order(bed, touching, forces, {1.2, 5.2}, {0, 1e-4});
+  const std::vector<PairForce> forces = {{0, 1, 1.0, 2.0}, {1, 2, 3.0, 3.0}};
+  Curves curves;
+  const Order order = measure_order(bed, touching, forces, {1.2, 5.2}, {0, 1e-4}, curves);
   CHECK(order.q6_global == about(0.574524, 1e-6));
   CHECK(order.three_contact_share == 0);
   CHECK(std::isnan(order.segregation));
-  CHECK(order.pair_correlation.bin_width == 0.05);
-  CHECK(order.pair_correlation.values.at(20) + order.pair_correlation.values.at(19) > 5);
+  CHECK(curves.pair_correlation.bin_width == 0.05);
+  CHECK(curves.pair_correlation.values.at(20) + curves.pair_correlation.values.at(19) > 5);
   CHECK(order.force_mean == Approx(2));
-  CHECK(order.force_density.values.size() == 80);
+  CHECK(curves.force_density.values.size() == 80);
 }
 
 }  // namespace

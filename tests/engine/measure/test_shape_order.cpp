@@ -66,7 +66,7 @@ TEST_CASE("grains outside the slab have no part in the order of its shapes") {
 
 TEST_CASE("contacts and forces have the shares of their kinds, those outside the slab none") {
   const std::vector<PairForce> forces = {
-      {0, 1, 1.0, 1.0}, {1, 2, 1.2, 2.0}, {0, 2, 0.8, 5.0}, {3, 4, 2.5, 7.0}};
+      {0, 1, 1.0, 1.0}, {1, 2, 2.0, 1.2}, {0, 2, 5.0, 0.8}, {3, 4, 7.0, 2.5}};
   std::vector<ForceLine> lines;
   for (const int kind : {1, 3, 1, 2}) lines.push_back({{0, 0, 1}, {0, 0, 0}, kind});
   const ShapeOrder order = measure_shape_order(upright_bars(), forces, lines, {0.5, 1.5});

@@ -28,11 +28,6 @@ std::vector<Row> pending_rows() {
   return {{sample_job("a1", 5), std::nullopt}, {sample_job("a2", 6), std::nullopt}};
 }
 
-/// The bed of an outcome with one grain.
-StoredBed bed_of(const Outcome& outcome) {
-  return {outcome.job, outcome.result.state_hash, {}, sample_curves(), {{}}, {}, {}, {}};
-}
-
 /// Flips a bit of the last grain of a bed.
 void damage_grains(const std::string& folder, const Outcome& outcome) {
   damage_bed(folder, outcome, outcome.stored_bytes - 20);
@@ -168,7 +163,7 @@ TEST_CASE("the sweep is recorded once, and anew where it is another or damaged")
 std::vector<Row> stored_rows(const TemporaryFolder& folder) {
   std::vector<Row> rows = {settled_row("a1", 5, 0.6, 6), settled_row("a2", 5, 0.61, 6)};
   for (Row& row : rows) {
-    add_stored_bed(folder.path(), bed_of(*row.outcome), *row.outcome);
+    add_stored_bed(folder.path(), bed_of(*row.outcome, 1, sample_curves()), *row.outcome);
   }
   return rows;
 }
@@ -196,7 +191,7 @@ TEST_CASE("a bed that is missing, damaged anywhere or another's is named and its
   for (const char* id : {"lost", "swapped", "failed"}) rows.push_back(settled_row(id, 5, 0.6, 6));
   rows[2].outcome->stored_bytes = 1;
   rows[2].outcome->shard = "2-of-2";
-  StoredBed other = bed_of(*rows[3].outcome);
+  StoredBed other = bed_of(*rows[3].outcome, 1, sample_curves());
   other.state_hash += 1;
   add_stored_bed(folder.path(), other, *rows[3].outcome);
   damage_grains(folder.path(), *rows[1].outcome);

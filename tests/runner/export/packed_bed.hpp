@@ -23,7 +23,7 @@ inline ExportedBed packed_bed(const ShapeSpec& shape, const Box& box, std::int64
   exported.bed.box = spec.box;
   exported.bed.grains = packing.grains;
   exported.bed.turned = packing.turned;
-  exported.bed.forces = stored_forces(packing.forces);
+  exported.bed.forces = packing.forces;
   exported.bed.wall_forces = packing.wall_forces;
   exported.bed.lines = packing.lines;
   exported.bed.wall_lines = packing.wall_lines;

@@ -162,7 +162,7 @@ TEST_CASE("30,000 spheres, and 15,000 polyhedra, with their forces have room in 
   CHECK(bed_page(bed, {"spheres", 0.0}).size() < 6'000'000);
   bed.grains.resize(15000);
   bed.forces.resize(60000);
-  for (StoredForce& force : bed.forces) force.a %= 15000, force.b %= 15000;
+  for (PairForce& force : bed.forces) force.a %= 15000, force.b %= 15000;
   bed.turned = sample_turned();
   bed.turned->orientations.assign(15000, {0.6, 0.0, 0.0, 0.8});
   CHECK(bed_page(bed, {"polyhedra", 0.0}).size() < 6'000'000);

@@ -23,7 +23,7 @@ std::vector<Row> wall_rows() {
       const double scatter = 1e-4 * (replicate - 2);
       Row row = settled_row(std::to_string(rows.size()), width, 0.64 - 0.2 / width + scatter, 6.0);
       row.job.replicate = replicate;
-      set_curves(sample_curves(), row.outcome->result);
+      static_cast<Curves&>(row.outcome->result) = sample_curves();
       rows.push_back(std::move(row));
     }
   }
@@ -315,7 +315,7 @@ TEST_CASE("bars over the height end where no solid fraction or coordination numb
 
 TEST_CASE("densities of forces are drawn from the least to the largest that there is", "[report]") {
   std::vector<Row> rows = wall_rows();
-  for (Row& row : rows) row.outcome->result.order.force_density = {0.5, {2.5, 0.25, 0, 0.125, 0}};
+  for (Row& row : rows) row.outcome->result.force_density = {0.5, {2.5, 0.25, 0, 0.125, 0}};
   const Analysis analysis = analyse(rows);
   const std::vector<Figure> figures = figures_of(rows, analysis, {});
   const std::string& commands = figure_called(figures, "distributions").commands;
@@ -327,7 +327,7 @@ TEST_CASE("the axis of distances ends with the last curve, and the caption says 
           "[report]") {
   std::vector<Row> rows = wall_rows();
   const auto set_length = [&](std::size_t row, std::size_t bins) {
-    rows[row].outcome->result.order.pair_correlation = {0.05, std::vector<double>(bins, 1.0)};
+    rows[row].outcome->result.pair_correlation = {0.05, std::vector<double>(bins, 1.0)};
   };
   const auto drawn = [&] {
     return figure_called(figures_of(rows, analyse(rows), {}), "distributions");
@@ -527,7 +527,7 @@ TEST_CASE("why families have no line is said once for all of them", "[report]") 
     for (const double small_share : {0.25, 0.5}) {
       Row row =
           settled_row(std::to_string(rows.size()), width, 0.6, 5.0, Boundary::walls, small_share);
-      set_curves(sample_curves(), row.outcome->result);
+      static_cast<Curves&>(row.outcome->result) = sample_curves();
       rows.push_back(std::move(row));
     }
   }

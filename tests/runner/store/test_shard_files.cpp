@@ -51,9 +51,6 @@ TEST_CASE("beds stand one behind the other, also those of a later run") {
   const TemporaryFolder folder;
   std::vector<Outcome> outcomes;
   for (const char* job : {"a", "b", "c"}) outcomes.push_back(sample_outcome(job, 0.6, 6.0));
-  const auto bed_of = [](const Outcome& outcome) {
-    return StoredBed{outcome.job, outcome.result.state_hash, {}, {}, {{}}, {}, {}, {}};
-  };
   {
     ShardFiles files(folder.path(), {}, sample_run());
     files.add_bed(bed_of(outcomes[0]), outcomes[0]);
@@ -95,8 +92,7 @@ TEST_CASE("a run that starts anew forgets what all shards have stored") {
   const TemporaryFolder folder;
   Outcome other = sample_outcome("b", 0.6, 6.0);
   add_outcomes(folder.path(), {sample_outcome("a", 0.6, 6.0)});
-  add_stored_bed(folder.path(), {"b", other.result.state_hash, {}, {}, {{}}, {}, {}, {}}, other,
-                 {2, 3});
+  add_stored_bed(folder.path(), bed_of(other), other, {2, 3});
   for (const char* name : {"2-of-2.beds", "notes.beds", "notes.txt"}) {
     replace_file(shards_folder(folder.path()) + "/" + name, "");
   }

@@ -27,7 +27,7 @@ StoredBed sample_bed() {
   bed.grains = {{0.1, 1.0 / 3.0, 5e-324, 0.5, 2.75, 6},
                 {-0.0, 5.0, 1e300, 0.25, std::numeric_limits<double>::infinity(), -1}};
   bed.curves = sample_curves();
-  bed.forces = stored_forces({{0, 1, 0.5, 2.75}});
+  bed.forces = {{0, 1, 2.75}};
   bed.wall_forces = {{1, 2, 1.0 / 3.0}};
   return bed;
 }
@@ -89,19 +89,6 @@ TEST_CASE("a stored bed of spheres reads back bit by bit, without orientations")
   CHECK(back.curves.components.at(1).contacts.at(1)[2] == 6);
   CHECK(back.curves.components.at(1).profile_z.bins.at(0).neighbours.at(1) == 9);
   CHECK_FALSE(back.turned);
-}
-
-TEST_CASE("curves are put back where they were taken from") {
-  PackingResult result;
-  set_curves(sample_curves(), result);
-  CHECK(result.profile_y.bin_width == 0.1);
-  CHECK(result.profile_z.bins.size() == 1);
-  CHECK(result.order.pair_correlation.values.at(2) == 3);
-  CHECK(result.sizes.at(0).slab == 0.125);
-  CHECK(result.components.at(0).neighbours == std::vector<double>{3, 1});
-  StoredBed bed = sample_bed();
-  bed.curves = curves_of(result);
-  CHECK(bed_bytes(bed) == bed_bytes(sample_bed()));
 }
 
 TEST_CASE("a bed begins as its header states") {

@@ -10,8 +10,8 @@ namespace {
 
 Row row_with_curves(const std::string& id, std::vector<double> g, std::vector<double> p) {
   Row row = settled_row(id, 5, 0.6, 6);
-  row.outcome->result.order.pair_correlation = {0.5, std::move(g)};
-  row.outcome->result.order.force_density = {0.25, std::move(p)};
+  row.outcome->result.pair_correlation = {0.5, std::move(g)};
+  row.outcome->result.force_density = {0.25, std::move(p)};
   return row;
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("curves have mean and scatter of the replicates that reach so far") {
 
 TEST_CASE("a mean curve is as long as the longest, in whatever order the replicates come") {
   const auto points = [](const std::vector<Row>& rows) {
-    return mean_curve(groups_of(rows).at(0), &Order::pair_correlation).size();
+    return mean_curve(groups_of(rows).at(0), &Curves::pair_correlation).size();
   };
   const Row shorter = row_with_curves("a", {0, 2}, {1}),
             longer = row_with_curves("b", {0, 4, 5}, {2});
