@@ -34,6 +34,8 @@ bool is_part_of_preset(const Group& group, const std::string& path) {
 
 using Values = std::map<std::string, std::string>;  // by parameter
 
+enum class Idle { left_out, kept };
+
 /// Whether a group lies along the width of others by its diameter.
 bool lies_by_diameter(const Group& group, const std::string& parameter) {
   return parameter == width_parameter && group.job.box.is_tube;
@@ -47,14 +49,16 @@ bool has_walls(const Series& series) {
 }
 
 /// What a group does not share with all others, except `left_out`: shares of components with the
-/// names of these, "sphere 0.3". Of two components each share tells the other.
-Values distinctions(const Group& group, const std::string& left_out) {
+/// names of these, "sphere 0.3". Of two components each share tells the other. Values on which
+/// nothing depends are kept where groups are sorted, not named: the ratio of two sizes belongs to
+/// the series of a share that begins at 0.
+Values distinctions(const Group& group, const std::string& left_out, Idle idle = Idle::left_out) {
   Values values;
   const std::vector<std::string> components = component_names(group.job);
   const bool is_mixture_of_two = components.size() == 2 && component_of_share(left_out) > 0;
   bool names_components = false;
   for (const auto& [path, cell] : group.told) {
-    if (path == left_out) continue;
+    if (path == left_out || (idle == Idle::left_out && group.idle.contains(path))) continue;
     if (path == diameter_parameter && lies_by_diameter(group, left_out)) continue;
     const std::size_t component = component_of_share(path);
     if (component > 0 && is_mixture_of_two) continue;
@@ -117,9 +121,10 @@ std::vector<const Group*> pointers_to(const std::vector<Group>& groups) {
   return all;
 }
 
-/// Whether a group has the parameter; cubes have none of prisms.
+/// Whether the group has the parameter, and depends on it; cubes have none of prisms.
 bool has_parameter(const Group& group, const std::string& path) {
-  return lies_by_diameter(group, path) || !group.varied.at(path).empty();
+  if (lies_by_diameter(group, path)) return true;
+  return !group.varied.at(path).empty() && !group.idle.contains(path);
 }
 
 /// Whether most groups have the parameter, so that the others may be left out along it.
@@ -141,20 +146,6 @@ std::set<double> values_of(const std::vector<const Group*>& groups, const std::s
   return values;
 }
 
-std::string axis_parameter(const std::vector<const Group*>& groups) {
-  std::string chosen;
-  std::size_t most = 1;
-  for (const std::string& path : varied_of(*groups.front())) {
-    const std::size_t count = values_of(groups, path).size();
-    if (path == width_parameter && count > 1) return path;
-    if (count > most && is_usual(groups, path)) {
-      most = count;
-      chosen = path;
-    }
-  }
-  return chosen;
-}
-
 /// The numbers that these groups vary, if they look like points of a random design: many, and for
 /// at least one number most have a value of their own.
 std::vector<std::string> scattered_numbers(const std::vector<const Group*>& groups) {
@@ -168,6 +159,37 @@ std::vector<std::string> scattered_numbers(const std::vector<const Group*>& grou
     most = std::max(most, count);
   }
   return numbers.size() > 1 && 2 * most > groups.size() ? numbers : std::vector<std::string>();
+}
+
+/// Whether any groups that differ in nothing else have several values of the parameter.
+bool is_varied_alone(const std::vector<const Group*>& groups, const std::string& path) {
+  std::map<Values, double> first;
+  return std::any_of(groups.begin(), groups.end(), [&](const Group* group) {
+    if (!has_parameter(*group, path)) return false;
+    const double value = value_of(*group, path);
+    return first.try_emplace(distinctions(*group, path, Idle::kept), value).first->second != value;
+  });
+}
+
+/// The extent of containers wherever it is varied; else the number with most values, if groups are
+/// compared along it or it is one of a random design. Beds that differ in several things at a time,
+/// each under its own label, have none.
+std::string axis_parameter(const std::vector<const Group*>& groups) {
+  const bool is_random = !scattered_numbers(groups).empty();
+  std::string chosen;
+  std::size_t most = 1;
+  for (const std::string& path : {width_parameter, diameter_parameter}) {
+    const bool is_varied = groups.front()->varied.contains(path);
+    if (is_varied && values_of(groups, path).size() > 1 && is_usual(groups, path)) return path;
+  }
+  for (const std::string& path : varied_of(*groups.front())) {
+    const std::size_t count = values_of(groups, path).size();
+    if (count <= most || !is_usual(groups, path)) continue;
+    if (!is_random && !is_varied_alone(groups, path)) continue;
+    most = count;
+    chosen = path;
+  }
+  return chosen;
 }
 
 /// What a point of a random design does not share with all other groups, except its numbers.
@@ -205,6 +227,16 @@ std::optional<std::string> common_label(const Series& series) {
   return is_common ? std::optional(label) : std::nullopt;
 }
 
+/// What tells a series from others: of some of its groups that may have no effect.
+Values distinctions_of(const Series& series, const Axes& axes) {
+  Values all;
+  for (const Group* group : series.groups) {
+    all.merge(series.is_scattered ? distinctions_but(*group, axes.scattered)
+                                  : distinctions(*group, axes.parameter));
+  }
+  return all;
+}
+
 /// Names series by their common label where it tells a series from the others, else by what does.
 void name_series(Axes& axes) {
   std::map<std::string, int> uses;
@@ -212,9 +244,7 @@ void name_series(Axes& axes) {
   for (Series& series : axes.series) {
     const Group& first = *series.groups.front();
     const auto label = common_label(series);
-    const std::string distinction =
-        words(series.is_scattered ? distinctions_but(first, axes.scattered)
-                                  : distinctions(first, axes.parameter));
+    const std::string distinction = words(distinctions_of(series, axes));
     if (label && (uses[*label] == 1 || distinction.empty()))
       series.name = *label;
     else
@@ -255,7 +285,7 @@ Axes axes_of(const std::vector<Group>& groups) {
   std::map<Values, std::size_t> index_of;
   for (const Group& group : groups) {
     const auto [at, is_new] =
-        index_of.try_emplace(distinctions(group, axes.parameter), axes.series.size());
+        index_of.try_emplace(distinctions(group, axes.parameter, Idle::kept), axes.series.size());
     if (is_new) axes.series.emplace_back();
     axes.series[at->second].groups.push_back(&group);
   }
@@ -279,7 +309,7 @@ double place_on(const Axes& axes, const Group& group) {
 
 double value_of(const Group& group, const std::string& parameter) {
   if (lies_by_diameter(group, parameter)) return group.job.box.width;
-  return number_of_cell(group.varied.at(parameter));
+  return has_parameter(group, parameter) ? number_of_cell(group.varied.at(parameter)) : no_number;
 }
 
 namespace {

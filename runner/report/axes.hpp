@@ -26,10 +26,10 @@ struct Axes {
   std::string folder = {};                  ///< as for GroupWithCurves
 };
 
-/// box.width goes along the axis wherever it is varied, with tubes at their diameter, else the
-/// number that takes most values, of those that most groups have; if there is none, the number of
-/// the group. Where
-/// many groups would each be alone on the axis, like points of a random design, those of one label
+/// box.width goes along the axis wherever it is varied, with tubes at their diameter, or
+/// tube.diameter; else the number that takes most values, of those that most groups have and that
+/// varies by itself or in a random design; if there is none, the number of the group. Where many
+/// groups would each be alone on the axis, like points of a random design, those of one label
 /// form a series. Refers to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
@@ -37,7 +37,7 @@ Axes axes_of(const std::vector<Group>& groups);
 double place_on(const Axes& axes, const Group& group);
 
 /// The number that a varied parameter has in a group, for tubes their diameter as box.width; NaN if
-/// it has none.
+/// it has none, or one that nothing depends on.
 double value_of(const Group& group, const std::string& parameter);
 
 /// What stands at an axis of this parameter.

@@ -108,6 +108,32 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
+/// What tells its family from others of the same label, without the values that have no effect.
+std::map<std::string, std::string> told_of_family(const Group& group,
+                                                  const std::set<std::string>& idle) {
+  std::map<std::string, std::string> told = group.told;
+  for (const char* const path : {"box.width", "box.y", "tube.diameter"}) told.erase(path);
+  for (const std::string& path : idle) told.erase(path);
+  told["label"] = group.job.label;
+  return told;
+}
+
+/// Finds, among what is varied, what groups do not depend on.
+void note_idle(std::vector<Group>& groups) {
+  std::map<std::map<std::string, std::string>, std::set<std::string>> families;
+  std::vector<std::set<std::string>> idle;
+  idle.reserve(groups.size());
+  for (const Group& group : groups) {
+    std::set<std::string>& paths = idle.emplace_back(idle_parameters(group.job));
+    std::erase_if(paths, [&](const std::string& path) { return !group.varied.contains(path); });
+    families[told_of_family(group, paths)].insert(group.family);
+  }
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const bool are_alike = families[told_of_family(groups[k], idle[k])].size() > 1;
+    if (!are_alike) groups[k].idle = std::move(idle[k]);
+  }
+}
+
 void note_presets(std::vector<Group>& groups) {
   std::set<std::string> names;
   for (const Group& group : groups) {
@@ -283,6 +309,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   }
   note_varied(groups);
   note_told(groups);
+  note_idle(groups);
   note_presets(groups);
   moderate_errors(groups);
   return groups;

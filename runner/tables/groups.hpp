@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -76,6 +77,9 @@ struct Group {
   /// shares of a mixture, are left out unless they also differ among groups of the same shape or
   /// components.
   std::map<std::string, std::string> told;
+  /// Those of `varied` that its packings do not depend on, as sizes.size_ratio without small grains;
+  /// but not where only these tell it from groups of the same label.
+  std::set<std::string> idle;
   /// Whether the name of its preset stands for the parts of its accuracy: presets vary, or all
   /// groups have one. Where parts of a preset are swept, a value that is its own is one of them.
   bool is_told_by_preset = false;

@@ -8,6 +8,7 @@
 #include "engine/scene/sizes.hpp"
 #include "runner/sweep/bed_kind.hpp"
 #include "runner/sweep/costs.hpp"
+#include "runner/sweep/parameters.hpp"
 
 namespace grainsweep {
 namespace {
@@ -109,6 +110,22 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job) {
     if (flat.contains(path) && path != "fill.files") flat[path] = cell(file);
   }
   return flat;
+}
+
+std::set<std::string> idle_parameters(const JobFacts& job) {
+  const auto parameters_of_job = identifying_parameters(job);
+  PackingSpec spec;  // with what decides it
+  const auto share = parameters_of_job.find("sizes.small_share");
+  spec.sizes.small_share = share == parameters_of_job.end() ? 1.0 : std::stod(share->second);
+  const bool is_from_file =
+      parameters_of_job.contains("fill.file") || parameters_of_job.contains("fill.files");
+  if (is_from_file) spec.fill = PlacedGrains{};
+  std::set<std::string> idle;
+  for (const auto& [path, value] : parameters_of_job) {
+    const auto known = find_parameter(path);
+    if (known && !idle_reason(parameters()[*known], spec).empty()) idle.insert(path);
+  }
+  return idle;
 }
 
 double small_class_limit(const JobFacts& job) {

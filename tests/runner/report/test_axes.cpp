@@ -81,6 +81,68 @@ TEST_CASE("lines are fitted over the diameter where all are tubes", "[report]") 
   CHECK(width_symbol(axes) == "D");
 }
 
+TEST_CASE("the diameter of tubes goes along the axis, whatever else has more values", "[report]") {
+  std::vector<Row> rows;
+  for (const double diameter : {4.0, 6.0, 8.0}) {
+    for (const char* const spread : {"0.0", "0.02", "0.05", "0.1"}) {
+      rows.push_back(row_at(std::to_string(rows.size()), diameter, 0.0));
+      rows.back().job.box = tube_of(diameter);
+      rows.back().job.parameters = std::string(R"({"sizes":{"spread":)") + spread +
+                                   R"(},"tube":{"diameter":)" + std::to_string(diameter) + "}}";
+    }
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "tube.diameter");
+  CHECK(is_over_width(axes));
+  CHECK(names_of(axes) == std::vector<std::string>{"MSP, spread = 0", "MSP, spread = 0.02",
+                                                   "MSP, spread = 0.05", "MSP, spread = 0.1"});
+}
+
+Row sized_row(const std::string& label, const std::string& parameters) {
+  Row row = row_at(label, 6, 0.0);
+  row.job.label = label;
+  row.job.parameters = parameters;
+  return row;
+}
+
+TEST_CASE("beds that differ in several things at a time have no axis", "[report]") {
+  const auto classes = [](const char* share, const char* ratio) {
+    return std::string(R"("sizes":{"size_ratio":)") + ratio + R"(,"small_share":)" + share + "}}";
+  };
+  std::vector<Row> rows = {
+      sized_row("short", R"({"shape":{"cylinder":{"length":1}},)" + classes("0.0", "0.5")),
+      sized_row("long", R"({"shape":{"cylinder":{"length":2}},)" + classes("0.0", "0.5")),
+      sized_row("lognormal", R"({"sizes":{"distribution":{"lognormal":{"sigma":0.2}}}})"),
+      sized_row("two sizes", "{" + classes("0.3", "0.4"))};
+  rows[0].job.shape = rows[1].job.shape = "cylinder";
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter.empty());
+  CHECK(names_of(axes) == std::vector<std::string>{"short", "long", "lognormal", "two sizes"});
+  CHECK(place_on(axes, groups[3]) == 4.0);
+  CHECK(title_of(groups[1]).find("size_ratio") == std::string::npos);
+  CHECK(title_of(groups[3]).find("size_ratio = 0.4") != std::string::npos);
+  CHECK(std::isnan(value_of(groups[0], "sizes.size_ratio")));
+}
+
+TEST_CASE("a share that begins at 0 is in the series of the others, named by their ratio",
+          "[report]") {
+  std::vector<Row> rows;
+  for (const char* const share : {"0.0", "0.1", "0.2"}) {
+    rows.push_back(sized_row(
+        "MSP", std::string(R"({"sizes":{"size_ratio":0.7,"small_share":)") + share + "}}"));
+  }
+  rows.push_back(sized_row("MSP", R"({"sizes":{"size_ratio":0.5,"small_share":0.3}})"));
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "sizes.small_share");
+  CHECK(names_of(axes) ==
+        std::vector<std::string>{"MSP, size_ratio = 0.7", "MSP, size_ratio = 0.5"});
+  CHECK(axes.series[0].groups.size() == 3);
+  CHECK(title_of(groups[0]) == "MSP, small_share = 0");
+}
+
 TEST_CASE("a sweep over something else has that along the axis", "[report]") {
   const std::vector<Row> rows = {row_at("a", 6, 0.4), row_at("b", 6, 0.0), row_at("c", 6, 0.2)};
   const std::vector<Group> groups = groups_of(rows);

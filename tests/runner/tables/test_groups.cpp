@@ -145,6 +145,25 @@ TEST_CASE("what a sweep varies has its unit, and no column in another one") {
   }
 }
 
+TEST_CASE("values without effect are known as such, unless only they tell groups apart") {
+  const auto row = [](const std::string& id, const char* ratio, const char* share) {
+    Row one = settled_row(id, 5, 0.6, 5.5);
+    one.job.parameters = std::string(R"({"sizes":{"size_ratio":)") + ratio + R"(,"small_share":)" +
+                         share + R"(,"spread":0.03}})";
+    return one;
+  };
+  std::vector<Row> rows = {row("a", "0.5", "0.0"), row("b", "0.7", "0.25")};
+  std::vector<Group> groups = groups_of(rows);
+  CHECK(groups[0].idle == std::set<std::string>{"sizes.size_ratio"});
+  CHECK(groups[1].idle.empty());
+  rows.push_back(row("c", "0.7", "0.0"));
+  groups = groups_of(rows);
+  CHECK(groups[0].idle.empty());
+  CHECK(groups[2].idle.empty());
+  for (Row& one : rows) one.job.parameters = R"({"fill":{"file":"0a"},"sizes":{"spread":0.03}})";
+  CHECK(idle_parameters(rows[0].job) == std::set<std::string>{"sizes.spread"});
+}
+
 TEST_CASE("a mean is asked for by the name of its field") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
   const auto groups = groups_of(rows);
