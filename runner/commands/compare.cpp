@@ -36,13 +36,20 @@ std::string fitting_reference(const std::vector<Row>& rows) {
   return all(is_of("pinacoid")) && !are_tubes ? "paper-pinacoids.reference.json" : "";
 }
 
-/// The file asked for, or the one beside the sweep. Throws BadInput if there is none.
+/// The file asked for, the one beside the sweep, or that kept in the output folder. Throws BadInput
+/// if there is none.
 std::string reference_file(const CompareOptions& options, const Provenance& provenance,
                            const std::vector<Row>& rows) {
   if (!options.with.empty()) return options.with;
   const std::string sweep_file = sweep_file_of(provenance);
   std::string beside = reference_beside(sweep_file);
   if (!sweep_file.empty() && file_exists(beside)) return beside;
+  std::string kept = kept_reference(options.folder);
+  if (file_exists(kept)) {
+    std::cerr << "note: published values are those of the last run, kept in " << kept
+              << (sweep_file.empty() ? "" : ": " + beside + " is not there") << "\n";
+    return kept;
+  }
   const std::string fitting = fitting_reference(rows);
   throw BadInput(options.folder + ": there are no published values beside the sweep" +
                  (sweep_file.empty() ? "" : " (" + beside + ")") +
@@ -84,7 +91,8 @@ void add_command(CLI::App& app, CompareOptions& options) {
   add_folder(compare, options.folder);
   compare
       .add_option("--with", options.with,
-                  "published values, JSON (default: SWEEP.reference.json beside SWEEP.json)")
+                  "published values, JSON (default: SWEEP.reference.json beside SWEEP.json, or "
+                  "the copy of it in DIR)")
       ->type_name("FILE");
   compare.add_flag("--csv", options.as_csv,
                    "as CSV, a row for each value and each width of a formula; run and report write "

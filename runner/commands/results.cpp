@@ -333,7 +333,8 @@ std::string stored_packings(const std::string& folder) {
 void clean_up(const std::string& folder) {
   forget_claims(folder);
   for (const char* name : tables) remove_leftovers(folder, name);
-  for (const char* name : {"report.html", "comparison.csv"}) remove_leftovers(folder, name);
+  for (const char* name : {"report.html", "comparison.csv", "reference.json"})
+    remove_leftovers(folder, name);
   for (const char* ending : {".csv", ".gnuplot"}) remove_leftovers(folder + "/figures", ending);
   for (const char* slot : {".0", ".1"}) remove_leftovers(folder + "/checkpoints", slot);
 }

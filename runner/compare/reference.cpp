@@ -376,6 +376,8 @@ std::string reference_beside(const std::string& sweep_file) {
          ".reference.json";
 }
 
+std::string kept_reference(const std::string& folder) { return folder + "/reference.json"; }
+
 bool describes(const PublishedFamily& published, const Family& family) {
   const json known = json::parse(family.parameters).flatten();
   return std::all_of(published.where.begin(), published.where.end(), [&](const auto& entry) {

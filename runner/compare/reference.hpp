@@ -63,6 +63,9 @@ Reference read_reference(const std::string& path);
 /// "configs/paper.json".
 std::string reference_beside(const std::string& sweep_file);
 
+/// Where an output folder keeps them for when they are no longer there.
+std::string kept_reference(const std::string& folder);
+
 /// Whether `family` is one that the `where` of `published` describes: by its parameters, by the
 /// name of its shape, and by that of the preset that it settles as.
 bool describes(const PublishedFamily& published, const Family& family);

@@ -26,16 +26,35 @@
 namespace grainsweep {
 namespace {
 
-/// The published values beside the sweep file, if there are any that can be read.
-std::optional<Reference> reference_of(const Provenance& provenance,
+std::string comparison_path(const std::string& folder) { return folder + "/comparison.csv"; }
+
+/// The published values beside the sweep file, a copy of which is kept in the folder for when they
+/// are not there. Appends to `missing` which were taken, or why none.
+std::optional<Reference> reference_of(const std::string& folder, const Provenance& provenance,
                                       std::vector<std::string>& missing) {
   const std::string sweep_file = sweep_file_of(provenance);
-  const std::string beside = reference_beside(sweep_file);
-  if (sweep_file.empty() || !file_exists(beside)) return std::nullopt;
+  const std::string beside = reference_beside(sweep_file), kept = kept_reference(folder);
+  const bool is_beside = !sweep_file.empty() && file_exists(beside);
+  if (!is_beside && !file_exists(kept)) {
+    if (!file_exists(comparison_path(folder))) return std::nullopt;
+    missing.push_back(
+        "report.html has no published values: " +
+        (sweep_file.empty() ? "several sweeps have none of their own" : beside + " is not there") +
+        "; comparison.csv is left as it was");
+    return std::nullopt;
+  }
   try {
-    return read_reference(beside);
+    Reference reference = read_reference(is_beside ? beside : kept);
+    if (is_beside) {
+      replace_file(kept, read_file(beside));
+    } else {
+      missing.push_back("published values are those of the last run, kept in " + kept +
+                        (sweep_file.empty() ? "" : ": " + beside + " is not there"));
+    }
+    return reference;
   } catch (const std::runtime_error& error) {  // of what is in it, or of the file
     missing.push_back("report.html has no published values: " + std::string(error.what()));
+    remove_file(comparison_path(folder));
     return std::nullopt;
   }
 }
@@ -93,8 +112,6 @@ std::string beds_of(const std::string& folder, const GivenUnits& units,
   return view.beds.empty() ? "" : bed_section(view);
 }
 
-std::string comparison_path(const std::string& folder) { return folder + "/comparison.csv"; }
-
 std::string figures_folder(const std::string& folder) { return folder + "/figures"; }
 
 void remove_drawn(const std::string& folder) {
@@ -124,13 +141,11 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
                                       const std::vector<Row>& rows, const Analysis& analysis,
                                       PageExtent extent) {
   std::vector<std::string> missing;
-  const auto reference = reference_of(provenance, missing);
+  const auto reference = reference_of(folder, provenance, missing);
   const std::vector<Comparison> comparisons =
       reference ? compare_with(*reference, analysis) : std::vector<Comparison>();
   if (reference) {
     replace_file(comparison_path(folder), comparison_csv(comparisons, provenance.units));
-  } else {
-    remove_file(comparison_path(folder));
   }
   PageParts parts;
   parts.title = provenance.sweep_name;
@@ -157,6 +172,7 @@ std::vector<std::string> write_report(const std::string& folder, const Provenanc
 void remove_report(const std::string& folder) {
   remove_file(folder + "/report.html");
   remove_file(comparison_path(folder));
+  remove_file(kept_reference(folder));
   remove_drawn(folder);
 }
 

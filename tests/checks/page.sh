@@ -82,8 +82,15 @@ cmp widths/comparison.csv <("$grainsweep" compare widths --csv) || fail "compare
 [ "$(wc -l <widths/comparison.csv)" -eq 5 ] || fail "comparison.csv has not 4 rows"
 [ ! -e sizes/comparison.csv ] || fail "without published values there is a comparison.csv"
 mv widths.reference.json aside.json
-"$grainsweep" report widths >/dev/null
-[ ! -e widths/comparison.csv ] || fail "comparison.csv outlives the published values"
+cp widths/comparison.csv compared.csv
+"$grainsweep" report widths 2>&1 >/dev/null | grep -q "kept in widths/reference.json: widths.reference" ||
+  fail "nothing says where published values come from"
+cmp widths/comparison.csv compared.csv || fail "published values are lost with their file"
+cmp widths/comparison.csv <("$grainsweep" compare widths --csv 2>/dev/null) || fail "compare loses them"
+rm widths/reference.json
+"$grainsweep" report widths 2>&1 >/dev/null | grep -q "no published values: widths.reference.json is" ||
+  fail "nothing says that published values are missing"
+cmp widths/comparison.csv compared.csv || fail "comparison.csv is gone with the published values"
 mv aside.json widths.reference.json
 "$grainsweep" report widths >/dev/null
 /usr/bin/python3 - widths <<'EOF'

@@ -62,6 +62,34 @@ TEST_CASE("the page of a sweep without packings is whole", "[report]") {
   CHECK(page.find("</html>") != std::string::npos);
 }
 
+TEST_CASE("published values are kept for when they are no longer beside the sweep", "[report]") {
+  const TemporaryFolder folder;
+  const std::string sweep = folder.path() + "/s.json", out = folder.path() + "/out";
+  const std::string beside = folder.path() + "/s.reference.json";
+  std::filesystem::create_directory(out);
+  const std::vector<Row> rows = {settled_row("a", 4, 0.6, 5.0), settled_row("b", 4, 0.61, 5.2)};
+  Provenance provenance;
+  provenance.sweeps = {{sweep, "{}"}};
+  const auto report = [&] {
+    return write_report(out, provenance, rows, analyse(rows), PageExtent::text);
+  };
+  replace_file(out + "/comparison.csv", "of an earlier version");
+  CHECK(report() == std::vector<std::string>{"report.html has no published values: " + beside +
+                                             " is not there; comparison.csv is left as it was"});
+  CHECK(read_file(out + "/comparison.csv") == "of an earlier version");
+  replace_file(beside, R"({"source": "a book", "families": [{"where": {}, "values": )"
+                       R"([{"quantity": "phi", "width": 4, "value": 0.61}]}]})");
+  CHECK(report().empty());
+  CHECK(read_file(out + "/reference.json") == read_file(beside));
+  const std::string compared = read_file(out + "/comparison.csv");
+  std::filesystem::remove(beside);
+  CHECK(report() ==
+        std::vector<std::string>{"published values are those of the last run, kept in " + out +
+                                 "/reference.json: " + beside + " is not there"});
+  CHECK(read_file(out + "/comparison.csv") == compared);
+  CHECK_THAT(read_file(out + "/report.html"), Catch::Contains("a book"));
+}
+
 TEST_CASE("packings that did not settle come first, with reason and remedy", "[report]") {
   const std::vector<Row> rows = {settled_row("aa", 4, 0.6, 5.0),
                                  row_with_status("bb", 5, PackingStatus::failed, "no room"),
