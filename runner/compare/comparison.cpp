@@ -99,7 +99,10 @@ std::string formula_text(const Comparison& row) {
   return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
          (row.along.empty() ? "not determined: " + row.measured.not_determined : verdict(row)) +
          "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
-         (row.along.empty() ? "" : "      here, at the last: " + row.measured.definition + "\n");
+         (row.along.empty() ? ""
+                            : "      here, at " + symbol_of_formula(row.published.formula->text) +
+                                  " = " + cell(row.along.back().published.width) +
+                                  " d: " + row.measured.definition + "\n");
 }
 
 std::string head_of(const std::string& family) {

@@ -185,7 +185,7 @@ TEST_CASE("the table says at how many widths a formula agrees, and how far it is
       Catch::Contains("  0.64 - 0.2/W\n      agrees at 3 of 3 widths; here minus published: "
                       "0.0000 in the mean, ") &&
           Catch::Contains(
-              "\n      published: by hand\n      here, at the last: exact solid volume from "));
+              "\n      published: by hand\n      here, at W = 20 d: exact solid volume from "));
   CHECK_THAT(text_of(with_formula("0.64 - 0.3/W")),
              Catch::Contains("agrees at 0 of 3 widths; here minus published: +0.0117 in the mean, "
                              "+0.0050 at W = 20 d to +0.0200 at W = 5 d\n"));
