@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -78,6 +79,7 @@ class Expansion {
     problems_.name_points();
     note_shared_jobs();
     note_repeated_points();
+    note_twins();
     if (is_whole) unused_.tell(definition_);
     return std::move(jobs_);
   }
@@ -123,6 +125,7 @@ class Expansion {
     const std::string identity = canonical_parameters(resolved);
     const JobHash id(identity), bed(canonical_bed(resolved));
     const JobHash settled_bed(canonical_settled_bed(resolved));
+    note_twin(index, in_effect, resolved, identity);
     std::string parameters = identity;
     if (is_listed) {
       resolved.fill_content = hash_of(starts);
@@ -278,6 +281,24 @@ class Expansion {
     }
   }
 
+  /// Counts a point that differs from one before only in the ratio of two sizes, of which there is
+  /// one.
+  void note_twin(std::size_t index, const InEffect& in_effect, const ResolvedSpec& resolved,
+                 const std::string& identity) {
+    const Parameter& ratio = parameters()[size_ratio_];
+    if (in_effect[size_ratio_] == nullptr) return;
+    if (idle_reason(ratio, resolved.spec).empty()) {
+      with_two_sizes_.insert(index);
+      return;
+    }
+    ResolvedSpec usual = resolved;
+    ratio.set(usual, *default_of(ratio));
+    const std::string key = definition_.blocks[index].label + "\n" + std::to_string(resolved.seed) +
+                            "\n" + canonical_parameters(usual);
+    const auto [known, is_new] = first_without_ratio_.try_emplace(key, identity);
+    if (!is_new && known->second != identity) count_again(twins_[index]);
+  }
+
   void note_shared_jobs() {
     for (const auto& [pair, again] : shared_) {
       const Block& first = definition_.blocks[pair.first];
@@ -306,6 +327,23 @@ class Expansion {
     }
   }
 
+  /// Notes points of a block that are beds of their own only by a value without effect; of one that
+  /// has no effect at any point its own note says it.
+  void note_twins() {
+    for (const auto& [index, again] : twins_) {
+      if (!with_two_sizes_.contains(index)) continue;
+      const Block& block = definition_.blocks[index];
+      diagnostics_.push_back(
+          {block.pointer,
+           in_thousands(again.count) + " of " + in_thousands(point_count(block)) +
+               (again.count == 1 ? " points differs" : " points differ") +
+               " from another one only in sizes.size_ratio, which has no effect where "
+               "sizes.small_share is 0" +
+               first_of(again) + "; give that share a block of its own to pack it once",
+           Anchor::value, "", true});
+    }
+  }
+
   const SweepDefinition& definition_;
   Diagnostics& diagnostics_;
   PointProblems problems_;
@@ -316,11 +354,15 @@ class Expansion {
   const std::size_t seed_ = parameter_with(Role::seed);
   const std::size_t fill_file_ = parameter_with(Role::fill_file);
   const std::size_t fill_files_ = parameter_with(Role::fill_files);
+  const std::size_t size_ratio_ = *find_parameter("sizes.size_ratio");
   const std::size_t chord_error_ = *find_parameter("shape.cylinder.chord_error");
   std::vector<Job> jobs_;
   std::unordered_map<std::uint64_t, std::size_t> first_block_;   // of every job, by its hash
   std::map<std::pair<std::size_t, std::size_t>, Again> shared_;  // jobs, by two blocks
   std::map<std::size_t, Again> repeated_;  // points that were drawn before, by block
+  std::unordered_map<std::string, std::string> first_without_ratio_;  // identities
+  std::set<std::size_t> with_two_sizes_;  // blocks where the ratio has an effect
+  std::map<std::size_t, Again> twins_;    // points that differ in an idle ratio, by block
 };
 
 }  // namespace

@@ -336,6 +336,17 @@ TEST_CASE("points that are there twice, said otherwise, are packed once, and tha
                  "packings of a point raise replicates"});
 }
 
+TEST_CASE("points that differ in nothing that has an effect are noted") {
+  const std::string grid =
+      R"({"grid": {"sizes.small_share": [0, 0.1], "sizes.size_ratio": [0.5, 0.7]}})";
+  CHECK(notes_of(sweep_of(grid)) ==
+        Messages{"s.json:1:37 /sweep/0: 1 of 4 points differs from another one only in "
+                 "sizes.size_ratio, which has no effect where sizes.small_share is 0, with "
+                 "sizes.small_share 0, sizes.size_ratio 0.7; give that share a block of its own to "
+                 "pack it once"});
+  CHECK(notes_of(sweep_of(R"({"grid": {"sizes.small_share": [0, 0.1]}})")).empty());
+}
+
 TEST_CASE("minus zero in a list is zero") {
   const auto id_of = [](const std::string& passing) {
     return jobs_of(sweep_of("{}", R"({"sizes.distribution.table": {"diameters": [1, 2, 3], )"
