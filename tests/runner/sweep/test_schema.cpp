@@ -353,7 +353,7 @@ TEST_CASE("near the edges of what can be packed the schema accepts all that the 
   }
   CHECK(right > draws / 4);
   CHECK(refused > draws / 4);
-  CHECK(refused_by_both > draws / 16);
+  CHECK(refused_by_both > draws / 11);
 }
 
 TEST_CASE("a name and only texts that can be a folder's are allowed") {
