@@ -53,6 +53,11 @@ std::string fixed(double value, int decimals) {
   return text.data();
 }
 
+std::string fixed_or_power(double value, int decimals) {
+  constexpr double many = 1e4;
+  return std::abs(value) < many ? fixed(value, decimals) : power_text(value);
+}
+
 std::string with_error(double value, double error, int decimals) {
   constexpr int most_more = 4;
   constexpr double rounding = 1e-12;  // of values that are all the same

@@ -23,6 +23,9 @@ std::string counted(std::size_t count, const std::string& noun);
 /// "0.6123" with so many decimals; "-" for NaN.
 std::string fixed(double value, int decimals);
 
+/// The same of what may be any size, as chi2 is: from 10,000 on "2.4e+07".
+std::string fixed_or_power(double value, int decimals);
+
 /// "0.6390 ± 0.0012", "0.6390" if there is no error; "-" without a value. An error too small for
 /// the decimals gets up to four more.
 std::string with_error(double value, double error, int decimals);

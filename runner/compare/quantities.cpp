@@ -45,7 +45,7 @@ Measured fitted(const Family& family, const WallFit& fit, const Estimate& estima
   const std::string left_out = fit.narrow_widths > 0 ? ", " + left_out_text(fit) : "";
   return {estimate, fit.not_determined,
           "line in 1/" + extent_symbol(family.walled) + " over " + std::to_string(fit.widths) +
-              " widths" + left_out + ", χ²/dof " + fixed(fit.chi2_per_dof, 1) +
+              " widths" + left_out + ", χ²/dof " + fixed_or_power(fit.chi2_per_dof, 1) +
               (fit.doubt.empty() ? "" : ": ") + fit.doubt};
 }
 
@@ -292,7 +292,7 @@ Shared share_quantity(const std::string& quantity, double width,
   shared.measured.estimate = {sum / weight, std::sqrt(std::max(1.0, chi2_per_dof) / weight)};
   shared.measured.bias_bound = bias_bound;
   shared.measured.definition = "weighted mean of " + std::to_string(values.size()) +
-                               " families, χ²/dof " + fixed(chi2_per_dof, 1) +
+                               " families, χ²/dof " + fixed_or_power(chi2_per_dof, 1) +
                                " (about 1 if one value holds for all)";
   return shared;
 }

@@ -118,7 +118,7 @@ std::vector<std::string> fit_cells(const Family& family, Quantity quantity,
   cells.insert(cells.end(), {with_error(fit.bulk.value, fit.bulk.error, decimals), unconfined});
   append_length(fit.slope, decimals - 1, units, cells);
   append_length(fit.zeta, 3, units, cells);
-  cells.insert(cells.end(), {fixed(fit.chi2_per_dof, 2), html_text(fit.doubt)});
+  cells.insert(cells.end(), {fixed_or_power(fit.chi2_per_dof, 2), html_text(fit.doubt)});
   return cells;
 }
 

@@ -119,8 +119,8 @@ std::string protocol_text(const WallFit& fit, int decimals) {
 
 /// How good the line is, in brackets.
 std::string quality_text(const WallFit& fit) {
-  return "(χ²/dof " + fixed(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) + ", " +
-         std::to_string(fit.widths) + " widths)";
+  return "(χ²/dof " + fixed_or_power(fit.chi2_per_dof, 2) + ", R² " + fixed(fit.r_squared, 3) +
+         ", " + std::to_string(fit.widths) + " widths)";
 }
 
 /// One fit: the symbols, bulk value beside the periodic one, slope, and how good the line is.
@@ -142,7 +142,11 @@ std::string fit_text(const Family& family, Quantity quantity, int decimals,
       "_bulk = " + length_text(fit.zeta.value, fit.zeta.error, 3, units) +
       (units ? "\n      " : "  ") + quality_text(fit) + "\n";
   if (fit.narrow_widths > 0) text += "      " + left_out_text(fit) + "\n";
-  if (!fit.doubt.empty()) text += "      " + fit.doubt + "\n";
+  for (std::size_t at = 0; at < fit.doubt.size();) {  // each on its own line
+    const std::size_t end = std::min(fit.doubt.find("; ", at), fit.doubt.size());
+    text += "      " + fit.doubt.substr(at, end - at) + "\n";
+    at = end + 2;
+  }
   return text;
 }
 

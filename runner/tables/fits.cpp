@@ -130,6 +130,19 @@ std::optional<double> bias_bound(const std::vector<const Group*>& groups, Quanti
   return largest;
 }
 
+/// Whether the value of a line without walls is not the one measured there, by three errors of
+/// both. What settling does to means has no part in it: both are settled alike.
+bool contradicts(const WallFit& fit, const Family& family, Quantity quantity) {
+  constexpr double most_errors = 3.0;
+  if (!family.unconfined) return false;
+  const Spread& periodic = spread_of(*family.unconfined, quantity);
+  const double error = std::hypot(fit.bulk.error, periodic.error);
+  return std::abs(fit.bulk.value - periodic.mean) > most_errors * error;  // not of NaN
+}
+
+constexpr const char* other_bulk =
+    "bulk and periodic value differ by more than their errors: too few or too narrow widths";
+
 const char* name_of(Quantity quantity) {
   return quantity == Quantity::solid_fraction ? "solid_fraction" : "coordination";
 }
@@ -294,6 +307,9 @@ WallFit fit_walls(const Family& family, Quantity quantity) {
   if (const auto line = fit_line(points)) {
     fit.doubt = doubt_of(*line, fit.points, quantity);
     take_line(fit_scattered_line(points).value(), fit);
+    if (contradicts(fit, family, quantity)) {
+      fit.doubt += (fit.doubt.empty() ? "" : "; ") + std::string(other_bulk);
+    }
   } else {
     fit.not_determined = "a mean value is not a number";
   }

@@ -42,7 +42,7 @@ struct WallFit {
   int widths = 0;              ///< different W of the line, with a settled packing
   int narrow_widths = 0;       ///< others that it leaves out, as no line need hold there
   int packings = 0;            ///< settled packings behind them
-  std::string doubt;           ///< why the line may be none; empty if it holds
+  std::string doubt;           ///< why the line may be none or its bulk wrong; empty if it holds
   std::string weights;         ///< what the errors of the points are
   std::vector<FitPoint> points;
   Estimate bulk;   ///< phi_bulk or Z_bulk

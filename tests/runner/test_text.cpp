@@ -57,5 +57,11 @@ TEST_CASE("words of printed commands are quoted where a shell needs it") {
   CHECK(shell_word("$HOME") == "'$HOME'");
 }
 
+TEST_CASE("what may be any size is short") {
+  CHECK(fixed_or_power(1.5, 2) == "1.50");
+  CHECK(fixed_or_power(9999.0, 1) == "9999.0");
+  CHECK(fixed_or_power(23730104.55, 2) == "2.4e+07");
+}
+
 }  // namespace
 }  // namespace grainsweep

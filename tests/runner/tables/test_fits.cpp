@@ -345,6 +345,24 @@ TEST_CASE("the table of a fit has the periodic value beside it") {
   CHECK(cell_in(unbounded, 1, "bulk_bias_bound").empty());
 }
 
+TEST_CASE("a bulk value that contradicts the measured one is in doubt") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 10.0}) add_width(rows, width, 0.001);
+  const Estimate bulk = fit_walls(family_of(rows), Quantity::solid_fraction).bulk;
+  const auto doubt_beside = [&](double periodic) {
+    std::vector<Row> all = rows;
+    for (const char* const id : {"p", "q"}) {
+      const double miss = *id == 'p' ? 0.0005 : -0.0005;
+      all.push_back(settled_row(id, 20, periodic + miss, 6.05, Boundary::periodic));
+    }
+    return fit_walls(family_of(all), Quantity::solid_fraction).doubt;
+  };
+  CHECK(doubt_beside(bulk.value).empty());
+  CHECK(doubt_beside(bulk.value - 2.0 * bulk.error).empty());
+  CHECK(doubt_beside(bulk.value - 5.0 * bulk.error) ==
+        "bulk and periodic value differ by more than their errors: too few or too narrow widths");
+}
+
 TEST_CASE("what has walls along x only is no value without walls") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
