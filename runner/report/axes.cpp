@@ -251,6 +251,7 @@ void name_series(Axes& axes) {
       series.name = distinction.empty() ? first.job.label
                     : label             ? shortened(*label, figure_label) + ", " + distinction
                                         : distinction;
+    if (label && series.name != *label) series.distinction = distinction;
   }
 }
 
@@ -348,17 +349,6 @@ bool is_over_width(const Axes& axes) {
 
 std::string width_symbol(const Axes& axes) {
   return axes.parameter == diameter_parameter ? "D" : "W";
-}
-
-std::string short_number(double value) {
-  constexpr int digits = 4;
-  if (value == 0.0 || !std::isfinite(value)) return cell(value);
-  const int before_point = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-  std::string text = fixed(value, std::max(digits - before_point, 0));
-  if (text.find('.') == std::string::npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
 }
 
 std::string title_of(const Group& group, std::size_t longest_label) {

@@ -11,7 +11,8 @@ namespace grainsweep {
 
 /// Groups that differ in nothing but the axis (and their labels), by ascending value on it.
 struct Series {
-  std::string name;  ///< its label, or what tells it from the others
+  std::string name;              ///< its label, or what tells it from the others
+  std::string distinction = {};  ///< of a name with both the second; else empty
   std::vector<const Group*> groups;
   /// Points of a random design instead: they share a label and differ in several numbers.
   bool is_scattered = false;
@@ -49,9 +50,6 @@ bool is_over_width(const Axes& axes);
 
 /// What is along such an axis: W, or D where all are tubes.
 std::string width_symbol(const Axes& axes);
-
-/// A number short enough for figures: at most four significant digits, all before the point.
-std::string short_number(double value);
 
 /// "walls, W = 5": what tells a group from all others of its sweep. A longer label is shortened to
 /// `longest_label` characters.

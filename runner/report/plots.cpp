@@ -5,6 +5,7 @@
 #include <map>
 
 #include "runner/report/figure.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
@@ -13,6 +14,19 @@ bool has_settled(const Group* group) { return !group->settled.empty(); }
 
 bool is_there(const Series& series) {
   return std::any_of(series.groups.begin(), series.groups.end(), has_settled);
+}
+
+/// Whether a key has no room for names that all begin with the same label.
+bool has_no_room_for_label(const std::vector<const Series*>& shown) {
+  const auto has_room = [](const Series* series) {
+    return characters(series->name) <= longest_entry;
+  };
+  const auto shares_label = [&](const Series* series) {
+    return !series->distinction.empty() &&
+           series->groups.front()->job.label == shown.front()->groups.front()->job.label;
+  };
+  return !std::all_of(shown.begin(), shown.end(), has_room) &&
+         std::all_of(shown.begin(), shown.end(), shares_label);
 }
 
 std::vector<const Group*> settled_groups(const Axes& axes) {
@@ -162,8 +176,12 @@ std::string reference_colours(const Axes& axes) {
 
 std::vector<KeyEntry> series_key(const Axes& axes, const std::string& style) {
   std::vector<KeyEntry> entries;
-  for (const Series* series : shown_series(axes)) {
-    entries.push_back({style + " ls " + cell(entries.size() + 1), series->name});
+  const std::vector<const Series*> shown = shown_series(axes);
+  const bool without_label = has_no_room_for_label(shown);
+  entries.reserve(shown.size());
+  for (const Series* series : shown) {
+    entries.push_back({style + " ls " + cell(entries.size() + 1),
+                       without_label ? series->distinction : series->name});
   }
   return entries;
 }

@@ -1,8 +1,11 @@
 #include "runner/tables/csv.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+
+#include "runner/text.hpp"
 
 namespace grainsweep {
 
@@ -41,6 +44,40 @@ std::string unquoted(const std::string& cell) {
   for (std::size_t k = 1; k + 1 < cell.size(); ++k) {
     text += cell[k];
     if (cell[k] == '"') ++k;
+  }
+  return text;
+}
+
+std::string short_number(double value) {
+  constexpr int digits = 4;
+  if (value == 0.0 || !std::isfinite(value)) return cell(value);
+  const int before_point = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  std::string text = fixed(value, std::max(digits - before_point, 0));
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string with_readable_numbers(const std::string& cell) {
+  constexpr std::ptrdiff_t most_digits = 6;
+  const bool is_list = cell.starts_with('[') && cell.find('"') == std::string::npos;
+  const char *at = cell.data(), *const last = cell.data() + cell.size();
+  std::string text;
+  while (at != last) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(at, last, value);
+    if (!is_list && (error != std::errc() || end != last)) return cell;
+    if (error != std::errc()) {
+      text += *at++;
+      continue;
+    }
+    const char* const first_digit =
+        std::find_if(at, end, [](char c) { return c > '0' && c <= '9'; });
+    const auto digits = std::count_if(first_digit, std::find(at, end, 'e'),
+                                      [](char c) { return c >= '0' && c <= '9'; });
+    text += digits > most_digits ? short_number(value) : std::string(at, end);
+    at = end;
   }
   return text;
 }

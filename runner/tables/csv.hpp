@@ -33,6 +33,13 @@ inline std::string cell(const char* text) { return cell(std::string_view(text));
 /// A cell as people read it, without its quotes.
 std::string unquoted(const std::string& cell);
 
+/// A number short enough for figures: at most four significant digits, all before the point.
+std::string short_number(double value);
+
+/// A cell as people read it where it is a number or a list of them: those with more digits than
+/// people write, as 1/30 of a default or what a length over another comes to, are short.
+std::string with_readable_numbers(const std::string& cell);
+
 /// Finished cells joined by commas and ended by a line feed.
 std::string csv_line(const std::vector<std::string>& cells);
 

@@ -102,20 +102,25 @@ std::string short_name(const std::string& path, const std::vector<std::string>& 
   return path.substr(path.starts_with(mixture) ? mixture.size() : path.rfind('.') + 1);
 }
 
+enum class Numbers { readable, exact };
+
 /// "small_share=0.25 size_ratio=0.5": the parameters among `paths`, by their short names.
-/// Parts of accuracies that are the same as in the preset are left out.
-std::string distinction_of(const Family& family, const std::set<std::string>& paths) {
+/// Parts of accuracies that are the same as in the preset are left out, and what has no effect.
+std::string distinction_of(const Family& family, const std::set<std::string>& paths,
+                           Numbers numbers) {
   std::string text;
   const bool tells_presets = std::count_if(paths.begin(), paths.end(), is_of_accuracy) > 1;
   const Flat own = told_by(family);
   const std::vector<std::string> components = component_names(first_group(family).job);
   for (const auto& [path, value] : parameters_of(family)) {
     const bool is_implied = tells_presets && is_of_accuracy(path) && !own.contains(path);
-    if (!paths.contains(path) || is_implied) continue;
+    const bool is_idle = first_group(family).idle.contains(path);
+    if (!paths.contains(path) || is_implied || is_idle) continue;
     text.append(text.empty() ? "" : " ")
         .append(short_name(path, components))
         .append("=")
-        .append(unquoted(value));
+        .append(numbers == Numbers::exact ? unquoted(value)
+                                          : with_readable_numbers(unquoted(value)));
   }
   return text;
 }
@@ -173,8 +178,15 @@ void name_families(std::vector<Family>& families) {
   for (Family& family : families) family.labels = labels_of(family);
   for (const auto& [root, alike] : alike_by_labels(families)) {
     const std::set<std::string> paths = differing_paths(alike);
+    std::set<std::string> readable, exact;
+    for (const Family* family : alike) {
+      readable.insert(distinction_of(*family, paths, Numbers::readable));
+      exact.insert(distinction_of(*family, paths, Numbers::exact));
+    }
+    const bool stay_apart = readable.size() == exact.size();
     for (Family* family : alike) {
-      family->distinction = distinction_of(*family, paths);
+      family->distinction =
+          distinction_of(*family, paths, stay_apart ? Numbers::readable : Numbers::exact);
       family->name =
           family->labels + (family->distinction.empty() ? "" : " ") + family->distinction;
     }

@@ -108,6 +108,29 @@ void note_told(std::vector<Group>& groups) {
   }
 }
 
+/// A value of a parameter with short numbers.
+std::string readable(const std::string& value) {
+  std::string rounded = with_readable_numbers(unquoted(value));
+  return rounded == unquoted(value) ? value : rounded;
+}
+
+/// Shortens the numbers of what tells groups apart, where their values stay apart.
+void round_told(std::vector<Group>& groups) {
+  std::map<std::string, std::pair<std::set<std::string>, std::set<std::string>>> values;
+  for (const Group& group : groups) {
+    for (const auto& [path, value] : group.told) {
+      values[path].first.insert(value);
+      values[path].second.insert(readable(value));
+    }
+  }
+  for (Group& group : groups) {
+    for (auto& [path, value] : group.told) {
+      const auto& [as_they_are, rounded] = values[path];
+      if (rounded.size() == as_they_are.size()) value = readable(value);
+    }
+  }
+}
+
 /// What tells its family from others of the same label, without the values that have no effect.
 std::map<std::string, std::string> told_of_family(const Group& group,
                                                   const std::set<std::string>& idle) {
@@ -309,6 +332,7 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   }
   note_varied(groups);
   note_told(groups);
+  round_told(groups);
   note_idle(groups);
   note_presets(groups);
   moderate_errors(groups);

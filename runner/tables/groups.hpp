@@ -75,10 +75,10 @@ struct Group {
   /// The same as people tell groups apart: where their shapes differ, the name of the shape, of a
   /// mixture those of its components, stands under "shape", and parameters of shapes, but for the
   /// shares of a mixture, are left out unless they also differ among groups of the same shape or
-  /// components.
+  /// components. Numbers with more digits than people write are short, where they stay apart.
   std::map<std::string, std::string> told;
-  /// Those of `varied` that its packings do not depend on, as sizes.size_ratio without small grains;
-  /// but not where only these tell it from groups of the same label.
+  /// Those of `varied` that its packings do not depend on, as sizes.size_ratio without small
+  /// grains; but not where only these tell it from groups of the same label.
   std::set<std::string> idle;
   /// Whether the name of its preset stands for the parts of its accuracy: presets vary, or all
   /// groups have one. Where parts of a preset are swept, a value that is its own is one of them.

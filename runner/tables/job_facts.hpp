@@ -93,8 +93,8 @@ std::map<std::string, std::string> flat_parameters(const JobFacts& job);
 /// The same, but with what a file holds, or a hash of it, in the place of its name.
 std::map<std::string, std::string> identifying_parameters(const JobFacts& job);
 
-/// The parameters of a job that its packing does not depend on: the ratio of two sizes without small
-/// grains, and sizes where a file has them.
+/// The parameters of a job that its packing does not depend on: the ratio of two sizes without
+/// small grains, and sizes where a file has them.
 std::set<std::string> idle_parameters(const JobFacts& job);
 
 /// Radius below which its grains count as small, d, as in engine/scene/sizes.hpp: 0 where none do,

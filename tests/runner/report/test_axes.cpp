@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/report/axes.hpp"
+#include "runner/report/plots.hpp"
 #include "tests/runner/sample_rows.hpp"
 
 using namespace grainsweep;
@@ -392,6 +393,39 @@ TEST_CASE("numbers in titles are short where there is no room, unless they would
   groups = groups_of(rows);
   CHECK(titles_of({&groups[0], &groups[1]}, 22, {&groups[0], &groups[1]}) ==
         std::vector<std::string>{"small_share = 0.160041", "small_share = 0.160042"});
+}
+
+TEST_CASE("numbers that nobody writes are short in titles and names", "[report]") {
+  const std::vector<Row> rows = {
+      sized_row("one", R"({"sizes":{"spread":0.03333333333333333}})"),
+      sized_row("one", R"({"sizes":{"spread":0.05}})"),
+      sized_row("sieve",
+                R"({"sizes":{"table":{"diameters":[0.6666666666666666,1,1.3333333333333333]}}})")};
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(title_of(groups[0]) == "one, spread = 0.03333");
+  CHECK(title_of(groups[1]) == "one, spread = 0.05");
+  CHECK(title_of(groups[2]) == "sieve, diameters = [0.6667,1,1.333]");
+  CHECK(groups[0].varied.at("sizes.spread") == "0.03333333333333333");
+}
+
+TEST_CASE("a key without room drops the label that all series share", "[report]") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0}) {
+    for (const double share : {0.1, 0.2}) {
+      rows.push_back(row_at(std::to_string(rows.size()), width, share));
+      rows.back().job.label = "a label of this sweep that has forty-four letters";
+      rows.back().job.parameters = R"({"box":{"width":)" + std::to_string(width) +
+                                   R"(},"sizes":{"size_ratio":0.)" + (share > 0.15 ? "5" : "4") +
+                                   R"(,"small_share":)" + std::to_string(share) + "}}";
+    }
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(names_of(axes)[0] == "a label of this…, size_ratio = 0.4, small_share = 0.1");
+  const std::vector<KeyEntry> key = series_key(axes, "points");
+  REQUIRE(key.size() == 2);
+  CHECK(key[0].title == "size_ratio = 0.4, small_share = 0.1");
+  CHECK(key[1].title == "size_ratio = 0.5, small_share = 0.2");
 }
 
 TEST_CASE("text is shortened by characters, not bytes", "[report]") {

@@ -50,5 +50,15 @@ TEST_CASE("a line joins its cells by commas") {
   CHECK(csv_line({"a"}) == "a\n");
 }
 
+TEST_CASE("numbers with more digits than people write are short where people read them") {
+  CHECK(with_readable_numbers("0.03333333333333333") == "0.03333");
+  CHECK(with_readable_numbers("0.160044") == "0.160044");
+  CHECK(with_readable_numbers("[0.6666666666666666,1,1.3333333333333333]") == "[0.6667,1,1.333]");
+  CHECK(with_readable_numbers("[\"0.123456789.csv\"]") == "[\"0.123456789.csv\"]");
+  CHECK(with_readable_numbers("0.123456789.csv") == "0.123456789.csv");
+  CHECK(with_readable_numbers("1e-12") == "1e-12");
+  CHECK(with_readable_numbers("").empty());
+}
+
 }  // namespace
 }  // namespace grainsweep
