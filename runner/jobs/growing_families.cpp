@@ -76,11 +76,14 @@ std::vector<Places> parameter_sets(const std::vector<Job>& jobs) { return gather
 std::vector<GrowingFamily> growing_families(const Sweep& whole, const std::vector<Places>& groups) {
   std::vector<GrowingFamily> families;
   if (!has_fit_wish(whole)) return families;
+  std::vector<JobFacts> jobs;
+  jobs.reserve(groups.size());
+  for (const Places& group : groups) jobs.push_back(facts_of(whole.jobs[group.front()]));
+  const std::vector<std::string> parameters = parameters_of_families(jobs);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const Job& job = whole.jobs[groups[k].front()];
-    const auto [known, is_new] =
-        index_of.try_emplace(parameters_of_family(facts_of(job)), families.size());
+    const auto [known, is_new] = index_of.try_emplace(parameters[k], families.size());
     if (is_new) families.emplace_back();
     GrowingFamily& family = families[known->second];
     family.groups.push_back(k);

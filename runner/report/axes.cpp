@@ -60,6 +60,7 @@ Values distinctions(const Group& group, const std::string& left_out, Idle idle =
   for (const auto& [path, cell] : group.told) {
     if (path == left_out || (idle == Idle::left_out && group.idle.contains(path))) continue;
     if (path == diameter_parameter && lies_by_diameter(group, left_out)) continue;
+    if (path == "box.length" && left_out == width_parameter && group.is_of_squares) continue;
     const std::size_t component = component_of_share(path);
     if (component > 0 && is_mixture_of_two) continue;
     if (component > 0 && component <= components.size()) {

@@ -183,9 +183,11 @@ std::string family_text(const Family& family, const GivenUnits& units) {
 std::string families_text(const std::vector<const Family*>& families) {
   std::vector<TableLine> lines;
   bool is_walled = false;
+  std::set<double> lengths;
   for (const Family* family : families) {
     append_lines(*family, lines);
     is_walled = is_walled || !family->walled.empty();
+    if (!first_group(*family).job.box.is_tube) lengths.insert(first_group(*family).job.box.length);
   }
   std::string text =
       "\n" + families.front()->labels + other_labels(families) + "\n" + table_text(lines);
@@ -193,7 +195,8 @@ std::string families_text(const std::vector<const Family*>& families) {
     const std::string extent = extent_in(lines);
     text += "  φ = φ_bulk - C/" + extent + " and Z = Z_bulk - C_Z/" + extent +
             ":  not determined: needs packings at 3 or more\n"
-            "      widths with otherwise equal parameters\n";
+            "      widths with otherwise equal parameters" +
+            (lengths.size() > 1 ? "; here box.length differs, too" : "") + "\n";
   }
   return text;
 }

@@ -74,6 +74,7 @@ std::string_view nearest_preset(const Flat& parameters) {
 Flat parameters_of(const Family& family) {
   Flat flat = flat_parameters(first_group(family).job);
   flat.erase("box.width");
+  if (first_group(family).is_of_squares) flat.erase("box.length");
   flat.erase("box.y");
   flat.erase("tube.diameter");
   flat["shape"] = first_group(family).job.shape;

@@ -48,7 +48,6 @@ Spread spread_over(const Members& members, const Field& field) {
 Group group_of(const Members& members) {
   Group group;
   group.job = members.front()->job;
-  group.family = parameters_of_family(group.job);
   group.bias_bound = bias_bound(group.job);
   for (const Field& field : mean_fields()) group.means.push_back(spread_over(members, field));
   std::vector<double> heights;
@@ -222,6 +221,11 @@ Columns<Group> bias_columns() {
           column("coordination_bias_bound", &ProtocolBias::coordination)};
 }
 
+bool is_square_duct(const Box& box) {
+  return !box.is_tube && box.x == Boundary::walls && box.y == Boundary::walls &&
+         box.length == box.width;
+}
+
 /// JSON on one line with numbers as jobs have them: 1e-04, which the library writes as 0.0001.
 std::string as_in_jobs(const nlohmann::json& value) {
   if (value.is_number_float()) return cell(value.get<double>());
@@ -238,14 +242,32 @@ std::string as_in_jobs(const nlohmann::json& value) {
 
 }  // namespace
 
-std::string parameters_of_family(const JobFacts& job) {
+std::string parameters_of_family(const JobFacts& job, bool is_over_squares) {
   nlohmann::json parameters = nlohmann::json::parse(job.parameters.text());
   if (parameters.contains("box")) {
     parameters["box"].erase("width");
     parameters["box"].erase("y");
+    if (is_over_squares) parameters["box"].erase("length");
   }
   if (parameters.contains("tube")) parameters["tube"].erase("diameter");
   return as_in_jobs(parameters);
+}
+
+std::vector<std::string> parameters_of_families(const std::vector<JobFacts>& jobs) {
+  std::vector<std::string> families;
+  std::map<std::string, std::set<double>> widths, sides;  // by family, and by that of squares
+  families.reserve(jobs.size());
+  for (const JobFacts& job : jobs) {
+    families.push_back(parameters_of_family(job));
+    widths[families.back()].insert(job.box.width);
+    if (is_square_duct(job.box)) sides[parameters_of_family(job, true)].insert(job.box.width);
+  }
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!is_square_duct(jobs[k].box) || widths[families[k]].size() > 1) continue;
+    std::string of_squares = parameters_of_family(jobs[k], true);
+    if (sides[of_squares].size() > 1) families[k] = std::move(of_squares);
+  }
+  return families;
 }
 
 GroupWithCurves::GroupWithCurves(Group group, const std::string& folder)
@@ -329,6 +351,14 @@ std::vector<Group> groups_of(const std::vector<Row>& rows) {
   for (const Members& some : members) {
     groups.push_back(group_of(some));
     groups.back().number = groups.size();
+  }
+  std::vector<JobFacts> jobs;
+  jobs.reserve(groups.size());
+  for (const Group& group : groups) jobs.push_back(group.job);
+  const std::vector<std::string> families = parameters_of_families(jobs);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    groups[k].family = families[k];
+    groups[k].is_of_squares = families[k] != parameters_of_family(jobs[k]);
   }
   note_varied(groups);
   note_told(groups);

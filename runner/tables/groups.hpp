@@ -66,10 +66,11 @@ std::string why_no_error(const Spread& spread);
 /// The packings with one label and one parameter set. Only settled ones enter the means. Refers to
 /// the rows that it was made of.
 struct Group {
-  JobFacts job;             ///< the first of them, whose id stands for the group
-  std::size_t number = 0;   ///< of its row in groups.csv, from 1
-  std::string family;       ///< canonical JSON of the parameters without box.width and box.y
-  std::string family_name;  ///< as Family::name, once families are known
+  JobFacts job;                ///< the first of them, whose id stands for the group
+  std::size_t number = 0;      ///< of its row in groups.csv, from 1
+  std::string family;          ///< canonical JSON of the parameters without box.width and box.y
+  bool is_of_squares = false;  ///< its family: of square ducts, which differ in their length, too
+  std::string family_name;     ///< as Family::name, once families are known
   /// Dotted name -> cell of the parameters that are not the same in all groups.
   std::map<std::string, std::string> varied;
   /// The same as people tell groups apart: where their shapes differ, the name of the shape, of a
@@ -92,8 +93,12 @@ struct Group {
 };
 
 /// The parameters of a family, canonical JSON: those of a job without the width of its container
-/// and what bounds it along y.
-std::string parameters_of_family(const JobFacts& job);
+/// and what bounds it along y; over square ducts without their length, too.
+std::string parameters_of_family(const JobFacts& job, bool is_over_squares = false);
+
+/// Those of the family that each of these parameter sets belongs to. Square ducts whose length no
+/// other width has are a family: they differ in both.
+std::vector<std::string> parameters_of_families(const std::vector<JobFacts>& jobs);
 
 /// The spread of what `value` gives for entry `k` of `list_of(result)`, over the settled packings
 /// of a group that have so many entries.

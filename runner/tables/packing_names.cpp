@@ -6,13 +6,18 @@ namespace grainsweep {
 
 PackingNames::PackingNames(const std::vector<Family>& families) {
   for (const Family& family : families) {
-    if (!family.distinction.empty()) distinctions_[family.parameters] = family.distinction;
+    if (family.distinction.empty()) continue;
+    for (const auto* const groups : {&family.walled, &family.periodic}) {
+      for (const Group& group : *groups) {
+        distinctions_[group.job.parameters.text()] = family.distinction;
+      }
+    }
   }
 }
 
 std::string PackingNames::family_of(const JobFacts& job) const {
   if (distinctions_.empty()) return job.label;
-  const auto found = distinctions_.find(parameters_of_family(job));
+  const auto found = distinctions_.find(job.parameters.text());
   if (found == distinctions_.end()) return job.label;
   return job.label + (job.label.empty() ? "" : " ") + found->second;
 }

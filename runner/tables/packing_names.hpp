@@ -22,7 +22,7 @@ class PackingNames {
   std::string set_of(const JobFacts& job) const;
 
  private:
-  std::map<std::string, std::string> distinctions_;  ///< by the parameters of the family
+  std::map<std::string, std::string> distinctions_;  ///< by the parameters of a packing
 };
 
 /// The names of a sweep's packings.

@@ -107,6 +107,21 @@ Row sized_row(const std::string& label, const std::string& parameters) {
   return row;
 }
 
+TEST_CASE("square ducts are one series over their width", "[report]") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0, 6.0}) {
+    rows.push_back(row_at(std::to_string(width), width, 0.0));
+    rows.back().job.box.x = Boundary::walls;
+    rows.back().job.box.length = width;
+    rows.back().job.parameters = R"({"box":{"length":)" + std::to_string(width) + R"(,"width":)" +
+                                 std::to_string(width) + R"(,"x":"walls","y":"walls"}})";
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  const Axes axes = axes_of(groups);
+  CHECK(axes.parameter == "box.width");
+  CHECK(names_of(axes) == std::vector<std::string>{"MSP"});
+}
+
 TEST_CASE("beds that differ in several things at a time have no axis", "[report]") {
   const auto classes = [](const char* share, const char* ratio) {
     return std::string(R"("sizes":{"size_ratio":)") + ratio + R"(,"small_share":)" + share + "}}";

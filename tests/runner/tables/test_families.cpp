@@ -43,6 +43,31 @@ TEST_CASE("families of one label are told apart by the parameter that differs") 
   CHECK(families[0].walled.size() == 2);
 }
 
+Row duct_row(double length, double width) {
+  Row row = settled_row(std::to_string(length) + std::to_string(width), width, 0.6, 6);
+  row.job.box.x = Boundary::walls;
+  row.job.box.length = length;
+  row.job.parameters = R"({"box":{"length":)" + std::to_string(length) + R"(,"width":)" +
+                       std::to_string(width) + R"(,"x":"walls","y":"walls"}})";
+  return row;
+}
+
+TEST_CASE("square ducts are a family, unless their lengths have other widths, too") {
+  const std::vector<Row> squares = {duct_row(4, 4), duct_row(5, 5), duct_row(6, 6)};
+  auto families = families_of(groups_of(squares));
+  REQUIRE(families.size() == 1);
+  CHECK(families[0].walled.size() == 3);
+  CHECK(families[0].name == "MSP");
+  CHECK(families[0].parameters == R"({"box":{"x":"walls"}})");
+  const std::vector<Row> grid = {duct_row(4, 4), duct_row(4, 5), duct_row(5, 4), duct_row(5, 5)};
+  families = families_of(groups_of(grid));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].name == "MSP length=4");
+  CHECK(families[0].walled.size() == 2);
+  const std::vector<Row> alone = {duct_row(4, 4)};
+  CHECK(families_of(groups_of(alone))[0].parameters == R"({"box":{"length":4,"x":"walls"}})");
+}
+
 TEST_CASE("a family of two labels carries both") {
   Row narrow = settled_row("a", 4, 0.6, 6);
   narrow.job.label = "narrow";
