@@ -174,6 +174,26 @@ bool is_moderated(const Field& field) {
   return field.name == "solid_fraction" || field.name.starts_with("coordination");
 }
 
+constexpr double rounding = 1e-12;  // of sums over the grains of a bed, relative
+
+/// Whether replicates that scatter by no more than rounding are copies.
+bool scatters(const Spread& spread, double by) { return by > rounding * std::abs(spread.mean); }
+
+/// Whether replicates are all in the one state that is possible, as single files: no two disordered
+/// packings have the same solid fraction to 1e-5. Their coordination numbers alone do not tell it,
+/// as multiples of one over the number of grains may be the same by chance; nor are they copies.
+bool are_in_one_state(const Group& group) {
+  constexpr double same = 1e-5;
+  const Spread& phi = mean_of(group, "solid_fraction");
+  return scatters(phi, phi.sd) && phi.sd < same * phi.mean;
+}
+
+/// Gives a mean that is the same in all replicates the error of its rounding.
+void make_exact(Spread& spread) {
+  constexpr double above_rounding = 10.0;
+  spread.error = above_rounding * rounding * std::abs(spread.mean);
+}
+
 void moderate_errors(std::vector<Group>& groups) {
   std::map<std::string, std::vector<Group*>> families;
   for (Group& group : groups) families[group.family].push_back(&group);
@@ -181,16 +201,16 @@ void moderate_errors(std::vector<Group>& groups) {
     for (std::size_t k = 0; k < mean_fields().size(); ++k) {
       if (!is_moderated(mean_fields()[k])) continue;
       std::vector<SlabMean> means;
-      for (Group* group : family) means.push_back({&group->means[k], group->slab_volume});
+      for (Group* group : family) {
+        Spread& spread = group->means[k];
+        if (are_in_one_state(*group) && !scatters(spread, spread.sd))
+          make_exact(spread);
+        else
+          means.push_back({&spread, group->slab_volume});
+      }
       moderate_errors(means);
     }
   }
-}
-
-/// Whether replicates that scatter by no more than rounding are copies.
-bool scatters(const Spread& spread, double by) {
-  constexpr double rounding = 1e-12;  // of sums over the grains of a bed
-  return by > rounding * std::abs(spread.mean);
 }
 
 const JobFacts& job_of_group(const Group& group) { return group.job; }

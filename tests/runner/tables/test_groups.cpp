@@ -164,6 +164,25 @@ TEST_CASE("values without effect are known as such, unless only they tell groups
   CHECK(idle_parameters(rows[0].job) == std::set<std::string>{"sizes.spread"});
 }
 
+TEST_CASE("coordination numbers that are the same are exact only in ordered packings") {
+  std::vector<Row> rows;
+  const auto add = [&](double width, double phi, double scatter, double z, double scatter_of_z) {
+    for (const int sign : {-1, 1}) {
+      const std::string id = std::to_string(rows.size());
+      rows.push_back(settled_row(id, width, phi + sign * scatter, z + sign * scatter_of_z));
+    }
+  };
+  add(3, 0.47, 1e-9, 2.0, 0.0);  // a single file
+  add(4, 0.55, 1e-3, 5.0, 0.0);  // by chance
+  add(5, 0.56, 2e-3, 5.2, 0.05);
+  add(6, 0.57, 1e-3, 5.4, 0.04);
+  add(7, 0.58, 2e-3, 5.5, 0.06);
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(mean_of(groups[0], "coordination").error < 1e-9);
+  CHECK(why_no_error(mean_of(groups[0], "coordination")).empty());
+  CHECK(mean_of(groups[1], "coordination").error > 0.01);
+}
+
 TEST_CASE("a mean is asked for by the name of its field") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
   const auto groups = groups_of(rows);
