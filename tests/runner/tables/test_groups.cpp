@@ -183,6 +183,25 @@ TEST_CASE("coordination numbers that are the same are exact only in ordered pack
   CHECK(mean_of(groups[1], "coordination").error > 0.01);
 }
 
+TEST_CASE("jobs of square ducts and of others are of the same families as their groups") {
+  std::vector<Row> rows;
+  for (const double width : {4.0, 5.0}) {
+    rows.push_back(settled_row(std::to_string(width), width, 0.6, 6));
+    rows.back().job.box.x = Boundary::walls;
+    rows.back().job.box.length = width;
+    rows.back().job.parameters = R"({"box":{"length":)" + std::to_string(width) + R"(,"width":)" +
+                                 std::to_string(width) + R"(,"x":"walls"}})";
+  }
+  rows.push_back(settled_row("c", 5, 0.6, 6));
+  const std::vector<Group> groups = groups_of(rows);
+  const auto families = parameters_of_families({rows[0].job, rows[1].job, rows[2].job});
+  CHECK(families[0] == families[1]);
+  CHECK(families[2] == parameters_of_family(rows[2].job));
+  for (std::size_t k = 0; k < groups.size(); ++k) CHECK(groups[k].family == families[k]);
+  CHECK(groups[1].is_of_squares);
+  CHECK_FALSE(groups[2].is_of_squares);
+}
+
 TEST_CASE("a mean is asked for by the name of its field") {
   const std::vector<Row> rows = {settled_row("a", 5, 0.6, 6)};
   const auto groups = groups_of(rows);
