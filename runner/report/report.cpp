@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -64,16 +62,16 @@ constexpr std::size_t most_beds = 12, most_view_bytes = 4'000'000;
 /// The first packing of each group with a stored bed, a settled one if there is any.
 std::vector<std::pair<const Group*, const Row*>> stored_beds(const std::vector<Row>& rows,
                                                              const std::vector<Group>& groups) {
-  std::map<std::pair<std::string_view, std::string_view>, const Row*> first_of;
-  for (const Row& row : rows) {
-    if (!row.outcome || row.outcome->stored_bytes == 0) continue;
-    const Row*& first = first_of[{row.job.label, row.job.parameters.text()}];
-    if (first == nullptr || (is_settled(row) && !is_settled(*first))) first = &row;
+  const std::vector<std::size_t> numbers = group_numbers(rows);
+  std::vector<const Row*> first_of(groups.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!rows[k].outcome || rows[k].outcome->stored_bytes == 0) continue;
+    const Row*& first = first_of[numbers[k] - 1];
+    if (first == nullptr || (is_settled(rows[k]) && !is_settled(*first))) first = &rows[k];
   }
   std::vector<std::pair<const Group*, const Row*>> all;
-  for (const Group& group : groups) {
-    const auto first = first_of.find({group.job.label, group.job.parameters.text()});
-    if (first != first_of.end()) all.emplace_back(&group, first->second);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (first_of[k] != nullptr) all.emplace_back(&groups[k], first_of[k]);
   }
   return all;
 }

@@ -1,8 +1,7 @@
 #include "runner/report/sections.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <numeric>
 
 #include "runner/report/html.hpp"
 #include "runner/store/fields.hpp"
@@ -143,10 +142,8 @@ int order_of(const Row& row) {
   return row.outcome->result.status == PackingStatus::failed ? 0 : 1;
 }
 
-/// What tells the group of a packing from the others.
-using Titles = std::map<std::pair<std::string, std::string>, std::string>;
-
-std::vector<std::string> packing_cells(const Row& row, const Titles& titles,
+/// `title`: what tells the group of the packing from the others.
+std::vector<std::string> packing_cells(const Row& row, const std::string& title,
                                        const GivenUnits& units) {
   const JobFacts& job = row.job;
   const std::string reason = html_text(row.outcome ? row.outcome->result.reason : "");
@@ -154,7 +151,7 @@ std::vector<std::string> packing_cells(const Row& row, const Titles& titles,
   std::vector<std::string> cells = {"<code>" + html_text(job.id) + "</code>",
                                     "<span class=\"status " + html_text(status_of(row)) + "\">" +
                                         html_text(status_words(row)) + "</span>",
-                                    html_text(titles.at({job.label, job.parameters.text()})),
+                                    html_text(title),
                                     cell(job.box.width),
                                     std::to_string(job.replicate),
                                     row.outcome ? std::to_string(row.outcome->result.grains) : "-",
@@ -331,10 +328,10 @@ std::string published_section(const std::string& source,
 
 std::string packings_section(const std::vector<Row>& rows, const std::vector<Group>& groups,
                              const GivenUnits& units) {
-  Titles titles;
-  for (const Group& group : groups) {
-    titles[{group.job.label, group.job.parameters.text()}] = title_of(group);
-  }
+  std::vector<std::string> titles;  // in the order of the groups' numbers
+  titles.reserve(groups.size());
+  for (const Group& group : groups) titles.push_back(title_of(group));
+  const std::vector<std::size_t> numbers = group_numbers(rows);
   HtmlTable table{"packings", "Packings, those that did not settle first", {}, {}};
   table.headings = {{"packing", "column job of the tables"},
                     {"status"},
@@ -350,14 +347,16 @@ std::string packings_section(const std::vector<Row>& rows, const std::vector<Gro
                     {"reason"}};
   if (units)
     table.headings.insert(table.headings.begin() + 4, extent_heading(groups, printed_unit(*units)));
-  std::vector<const Row*> sorted;
-  sorted.reserve(rows.size());
-  for (const Row& row : rows) sorted.push_back(&row);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Row* a, const Row* b) { return order_of(*a) < order_of(*b); });
+  std::vector<std::size_t> sorted(rows.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::stable_sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+    return order_of(rows[a]) < order_of(rows[b]);
+  });
   const std::size_t shown = std::min(most_packings, sorted.size());
-  for (std::size_t k = 0; k < shown; ++k)
-    table.rows.push_back(packing_cells(*sorted[k], titles, units));
+  for (std::size_t k = 0; k < shown; ++k) {
+    const std::size_t at = sorted[k];
+    table.rows.push_back(packing_cells(rows[at], titles[numbers[at] - 1], units));
+  }
   return left_out_note(shown, sorted.size(), "packings", "packings.csv") + html_table(table);
 }
 
