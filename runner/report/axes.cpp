@@ -162,13 +162,17 @@ std::vector<std::string> scattered_numbers(const std::vector<const Group*>& grou
   return numbers.size() > 1 && 2 * most > groups.size() ? numbers : std::vector<std::string>();
 }
 
-/// Whether any groups that differ in nothing else have several values of the parameter.
-bool is_varied_alone(const std::vector<const Group*>& groups, const std::string& path) {
-  std::map<Values, double> first;
+/// Whether groups are compared along the parameter: some that differ in nothing else have several
+/// values of it, or some of one label, as of a zip.
+bool is_compared(const std::vector<const Group*>& groups, const std::string& path) {
+  std::map<Values, double> first_alike;
+  std::map<std::string, double> first_of_label;
   return std::any_of(groups.begin(), groups.end(), [&](const Group* group) {
     if (!has_parameter(*group, path)) return false;
     const double value = value_of(*group, path);
-    return first.try_emplace(distinctions(*group, path, Idle::kept), value).first->second != value;
+    const Values others = distinctions(*group, path, Idle::kept);
+    return first_alike.try_emplace(others, value).first->second != value ||
+           first_of_label.try_emplace(group->job.label, value).first->second != value;
   });
 }
 
@@ -186,7 +190,7 @@ std::string axis_parameter(const std::vector<const Group*>& groups) {
   for (const std::string& path : varied_of(*groups.front())) {
     const std::size_t count = values_of(groups, path).size();
     if (count <= most || !is_usual(groups, path)) continue;
-    if (!is_random && !is_varied_alone(groups, path)) continue;
+    if (!is_random && !is_compared(groups, path)) continue;
     most = count;
     chosen = path;
   }

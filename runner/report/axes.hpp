@@ -29,9 +29,9 @@ struct Axes {
 
 /// box.width goes along the axis wherever it is varied, with tubes at their diameter, or
 /// tube.diameter; else the number that takes most values, of those that most groups have and that
-/// varies by itself or in a random design; if there is none, the number of the group. Where many
-/// groups would each be alone on the axis, like points of a random design, those of one label
-/// form a series. Refers to the groups.
+/// varies by itself, under one label or in a random design; if there is none, the number of the
+/// group. Where many groups would each be alone on the axis, like points of a random design, those
+/// of one label form a series. Refers to the groups.
 Axes axes_of(const std::vector<Group>& groups);
 
 /// Where a group lies on the axis; NaN if it lacks what is along it.

@@ -142,6 +142,16 @@ TEST_CASE("beds that differ in several things at a time have no axis", "[report]
   CHECK(std::isnan(value_of(groups[0], "sizes.size_ratio")));
 }
 
+TEST_CASE("of what varies together under one label the first is along the axis", "[report]") {
+  std::vector<Row> rows;
+  for (int k = 1; k < 4; ++k) {
+    rows.push_back(sized_row("zip", R"({"fill":{"solid_height":)" + std::to_string(k + 5) +
+                                        R"(},"sizes":{"spread":0.0)" + std::to_string(k) + "}}"));
+  }
+  const std::vector<Group> groups = groups_of(rows);
+  CHECK(axes_of(groups).parameter == "fill.solid_height");
+}
+
 TEST_CASE("a share that begins at 0 is in the series of the others, named by their ratio",
           "[report]") {
   std::vector<Row> rows;
