@@ -102,8 +102,20 @@ std::string process_name() {
 
 std::string number_of_process(const std::string& name) { return name.substr(name.rfind('-') + 1); }
 
+namespace {
+
+/// Of "HOST-TOKEN-NUMBER"; names of hosts may hold dashes themselves. Empty if it is no such name.
+std::string host_of_process(const std::string& name) {
+  const std::size_t before_number = name.rfind('-');
+  if (before_number == std::string::npos || before_number == 0) return "";
+  const std::size_t before_token = name.rfind('-', before_number - 1);
+  return before_token == std::string::npos ? "" : name.substr(0, before_token);
+}
+
+}  // namespace
+
 bool has_ended(const std::string& process_name) {
-  if (!process_name.starts_with(host_name() + "-")) return false;
+  if (host_of_process(process_name) != host_name()) return false;
   const std::string number = number_of_process(process_name);
   constexpr std::size_t most_digits = 9;
   if (number.size() > most_digits) return false;
@@ -119,7 +131,9 @@ std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   std::string line;
   while (std::getline(file, line)) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    const std::size_t colon = line.find(": ");
+    const bool is_named = line.starts_with("model name") && colon != std::string::npos;
+    if (is_named) return line.substr(colon + 2);
   }
   return "";
 }

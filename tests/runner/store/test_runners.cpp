@@ -67,6 +67,8 @@ TEST_CASE("a process that nobody has waited for has ended all the same") {
   CHECK(has_ended(name));
   CHECK_FALSE(has_ended(process_name()));
   CHECK_FALSE(has_ended("another-machine-1-999999999"));
+  CHECK_FALSE(has_ended(host_name() + "-2-1-999999999"));  // the host "<this one>-2"
+  CHECK_FALSE(has_ended("-999999999"));
 }
 
 TEST_CASE("a runner of this machine is at work where the file system knows no locks") {
