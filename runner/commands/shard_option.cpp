@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -56,20 +57,21 @@ std::optional<int> number_of(const char* variable, const Environment& environmen
   return integer_in(value != nullptr ? value : variable);
 }
 
-/// What one engine says: the number of a task from 0, and of how many if it says so.
+/// What one engine says: the number of a task from 0, and of how many if it says so. In 64 bits
+/// sums and products of two variables of 32 bits have room, whatever these hold.
 struct Task {
-  int index = 0;
-  std::optional<int> count;
+  std::int64_t index = 0;
+  std::optional<std::int64_t> count;
 };
 
 std::optional<Task> task_of(const TaskVariables& names, const Environment& environment) {
   const auto number = number_of(names.number, environment);
   const auto first = number_of(names.first, environment);
   if (!number || !first) return std::nullopt;
-  const int step = std::max(1, number_of(names.step, environment).value_or(1));
-  Task task{(*number - *first) / step, number_of(names.count, environment)};
-  if (const auto last = number_of(names.last, environment))
-    task.count = (*last - *first) / step + 1;
+  const std::int64_t from = *first,
+                     step = std::max(1, number_of(names.step, environment).value_or(1));
+  Task task{(*number - from) / step, number_of(names.count, environment)};
+  if (const auto last = number_of(names.last, environment)) task.count = (*last - from) / step + 1;
   const bool is_rank = names.first == std::string_view("0");
   return is_rank && !task.count ? std::nullopt : std::optional(task);
 }
@@ -95,6 +97,11 @@ std::string listed(const Rows& rows) {
   return text;
 }
 
+std::string too_many_text(std::int64_t count) {
+  return std::to_string(count) + " are too many: a sweep has " + std::to_string(most_shards) +
+         " shards at most";
+}
+
 /// `given`: how many shards the user says there are.
 Shard shard_of_task(const Environment& environment, std::optional<int> given) {
   const auto element = first_task(arrays, environment), rank = first_task(ranks, environment);
@@ -107,19 +114,20 @@ Shard shard_of_task(const Environment& environment, std::optional<int> given) {
         "--shard auto: this engine tells the number of a task, not how many there are; "
         "add that, --shard auto/64");
   }
-  const int ranks_each = rank ? std::max(1, *rank->count) : 1;
-  int told = 1;
+  const std::int64_t ranks_each = rank ? std::max<std::int64_t>(1, *rank->count) : 1;
+  std::int64_t told = 1;
   if (element) told = element->count ? *element->count : *given / ranks_each;
-  const Shard shard{(element ? element->index : 0) * ranks_each + (rank ? rank->index : 0) + 1,
-                    told * ranks_each};
-  if (shard.number < 1 || shard.number > shard.count || (given && *given != shard.count)) {
+  const std::int64_t count = told * ranks_each;
+  const std::int64_t number =
+      (element ? element->index : 0) * ranks_each + (rank ? rank->index : 0) + 1;
+  if (number < 1 || number > count || (given && *given != count)) {
     throw BadInput(
-        "--shard auto: this is task " + std::to_string(shard.number) + " of " +
-        std::to_string(shard.count) +
+        "--shard auto: this is task " + std::to_string(number) + " of " + std::to_string(count) +
         (given ? ", not one of " + std::to_string(*given) : std::string()) +
         "; number the tasks from 1 without gaps, or give the shard itself, --shard 3/64");
   }
-  return shard;
+  if (count > most_shards) throw BadInput("--shard auto: " + too_many_text(count));
+  return {static_cast<int>(number), static_cast<int>(count)};
 }
 
 }  // namespace
@@ -134,8 +142,7 @@ Shard shard_from_option(const std::string& text, const Environment& environment)
   }
   const auto shard = shard_from_text(text);
   if (shard && shard->count > most_shards) {
-    throw BadInput("--shard " + text + ": a sweep has " + std::to_string(most_shards) +
-                   " shards at most");
+    throw BadInput("--shard " + text + ": " + too_many_text(shard->count));
   }
   if (!shard) {
     throw BadInput("--shard " + text +

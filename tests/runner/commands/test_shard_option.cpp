@@ -39,6 +39,25 @@ TEST_CASE("a sweep has a million shards at most") {
   }
 }
 
+TEST_CASE("tasks of an engine are as few, however large the numbers in its variables") {
+  const auto refused = [](const Variables& variables, const char* why) {
+    CHECK_THROWS_WITH(automatic(variables), Contains(why));
+  };
+  const Variables array = {{"SLURM_ARRAY_TASK_ID", "1"},
+                           {"SLURM_ARRAY_TASK_MIN", "1"},
+                           {"SLURM_ARRAY_TASK_COUNT", "2000000000"}};
+  refused(array, "2000000000 are too many: a sweep has 1000000 shards at most");
+  Variables both = array;
+  both["SLURM_ARRAY_TASK_COUNT"] = both["OMPI_COMM_WORLD_SIZE"] = "70000";
+  both["OMPI_COMM_WORLD_RANK"] = "0";
+  refused(both, "4900000000 are too many");
+  refused({{"SGE_TASK_ID", "2147483647"},
+           {"SGE_TASK_FIRST", "-2147483648"},
+           {"SGE_TASK_LAST", "2147483647"}},
+          "4294967296 are too many");
+  refused({{"SLURM_PROCID", "7"}, {"SLURM_STEP_NUM_TASKS", "1000001"}}, "1000001 are too many");
+}
+
 TEST_CASE("every engine's tasks are shards from 1 on") {
   CHECK(automatic({{"SLURM_ARRAY_TASK_ID", "14"},
                    {"SLURM_ARRAY_TASK_MIN", "10"},
