@@ -30,6 +30,9 @@ namespace {
 /// Packings that are added before they are written to the disk together.
 constexpr std::size_t added_at_once = 1000;
 
+/// What becomes of packings whose beds cannot be read.
+constexpr std::string_view left_out = "left out";
+
 /// The merged folder while it grows.
 struct Collection {
   std::string folder;
@@ -45,7 +48,8 @@ struct Collection {
   /// What is stored of other forms of the sweeps, which is in no table.
   Outcomes others;
   std::size_t added = 0, given_grains = 0, stored = 0;
-  bool is_short = false;  ///< something stored could not be read
+  std::vector<BedFault> faults = {};  ///< of beds of the present source, which are left out
+  bool is_short = false;              ///< something stored could not be read
 };
 
 /// The record of this process; it makes no packing, and is not listed among the runs.
@@ -141,14 +145,13 @@ bool is_same_result(const Outcome& a, const Outcome& b) {
   return a.result.state_hash == b.result.state_hash && a.result.status == b.result.status;
 }
 
-/// Copies the bed of a stored packing; false, and a warning, if it is missing or damaged.
+/// Copies the bed of a stored packing; false, and a warning later, if it is missing or damaged.
 bool copy_bed(const std::string& folder, Outcome& outcome, Collection& to) {
   try {
     to.files.add_bed(read_bed(folder, outcome), outcome);
     return true;
   } catch (const FileError& error) {
-    warn(std::string(error.what()) + "; left out", to);
-    to.is_short = true;
+    to.faults.push_back(fault_of_bed(outcome.job, error));
     return false;
   }
 }
@@ -159,7 +162,7 @@ bool brings_grains(const Outcome& outcome, const Outcome& known) {
 }
 
 /// Stores an outcome and its bed, so that it counts more than the `known` one, which it replaces;
-/// false, and a warning, if the bed is missing or damaged.
+/// false, and a warning later, if the bed is missing or damaged.
 bool store(const std::string& folder, Boxed<Outcome>&& outcome, Boxed<Outcome>& known,
            Collection& to) {
   if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return false;
@@ -227,10 +230,10 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
     }
     warn_of(check_beds(folder, collection.rows), collection);
     collection.others = std::move(stored.outcomes);
-    std::vector<std::string> damage;
+    std::vector<BedFault> faults;
     std::erase_if(collection.others,
-                  [&](const auto& other) { return !has_sound_bed(folder, *other.second, damage); });
-    warn_of(damage, collection);
+                  [&](const auto& other) { return !has_sound_bed(folder, *other.second, faults); });
+    warn_of(lines_of(faults, left_out), collection);
     collection.provenance = std::move(stored.provenance);
     std::erase_if(collection.provenance.runs,
                   [&](const RunRecord& run) { return is_same_run(run, own); });
@@ -309,6 +312,7 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
     const std::size_t before = collection->added, given_before = collection->given_grains;
     add_results(folder, std::move(stored), *collection,
                 [&](double share) { display.advance(i, share); });
+    warn_of(lines_of(std::exchange(collection->faults, {}), left_out), *collection);
     // A collection that is killed later goes on from here.
     files.flush();
     record_sweep(options.out, collection->provenance, collection->rows);

@@ -109,14 +109,16 @@ int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference =
       read_reference(reference_file(options, results.provenance, results.rows));
-  std::cerr << damage_warnings(check_beds(options.folder, results.rows));
+  const std::vector<std::string> damage = check_beds(options.folder, results.rows);
+  std::cerr << damage_warnings(damage);
+  const ExitCode end = damage.empty() ? exit_done : exit_file_system;
   const Analysis analysis = analyse(results.rows, options.folder);
   if (const GivenUnits& units = results.provenance.units) {
     std::cerr << notes_on_widths(reference, analysis, *units);
   }
   if (options.as_csv) {
     std::cout << comparison_csv(compare_with(reference, analysis), results.provenance.units);
-    return exit_done;
+    return end;
   }
   std::cout
       << reference.source + "\nbeside " + results.provenance.sweep_name +
@@ -128,7 +130,7 @@ int perform(const CompareOptions& options) {
              "the "
              "bound of settling, where that was measured.\n" +
              comparison_text(reference, analysis);
-  return exit_done;
+  return end;
 }
 
 }  // namespace grainsweep

@@ -177,7 +177,8 @@ struct Writing {
 struct Written {
   std::map<std::string, std::string> jobs;  ///< by their files
   std::size_t unsettled = 0, without_grains = 0;
-  std::vector<std::string> damage, refused;  ///< why beds are left out
+  std::vector<BedFault> faults;
+  std::vector<std::string> refused;  ///< why beds are left out that can be read
 };
 
 std::string text_of(const Writing& writing, StoredBed&& bed, const Row& row) {
@@ -193,7 +194,8 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
   try {
     bed = read_bed(writing.from, *row.outcome);
   } catch (const FileError& error) {
-    return "left out: " + written.damage.emplace_back(error.what());
+    written.faults.push_back(fault_of_bed(row.job.id, error));
+    return std::string("left out: ") + error.what();
   }
   if (bed.grains.empty()) {
     ++written.without_grains;
@@ -290,8 +292,8 @@ int perform(const ExportOptions& options) {
     display.finish(i, true, file + "  " + write_bed(writing, rows[chosen[i]], file, written));
   }
   display.clear();
-  std::cerr << damage_warnings(written.damage);
-  if (written.jobs.empty() && !written.damage.empty()) return exit_file_system;
+  std::cerr << damage_warnings(lines_of(written.faults, "left out"));
+  if (written.jobs.empty() && !written.faults.empty()) return exit_file_system;
   if (written.jobs.empty() && !written.refused.empty()) throw BadInput(written.refused.front());
   if (written.jobs.empty())
     throw BadInput(options.folder + ": its packings were stored without grains");
@@ -319,7 +321,7 @@ int perform(const ExportOptions& options) {
   if (written.without_grains > 0) {
     std::cout << counted(written.without_grains, "packing") << " left out: stored without grains\n";
   }
-  if (!written.damage.empty()) return exit_file_system;
+  if (!written.faults.empty()) return exit_file_system;
   return written.refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;
 }
 

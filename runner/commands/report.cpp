@@ -11,6 +11,7 @@
 #include "runner/machine.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/runners.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/tables/closing_report.hpp"
 
 namespace grainsweep {
@@ -28,9 +29,17 @@ bool is_written(const char* what, const Write& write) {
   }
 }
 
-/// Whether packings are stored, and not one of them can be read.
-bool is_unreadable(const Results& results) {
-  return !results.damage.empty() && std::none_of(results.rows.begin(), results.rows.end(), is_made);
+/// Why tables of these rows would hold nothing, though there may be good ones; "" if packings are
+/// made or none was. `bed_damage`: as check_beds() returns it.
+std::string why_nothing_is_read(const std::string& folder, const Results& results,
+                                const std::vector<std::string>& bed_damage) {
+  if (std::any_of(results.rows.begin(), results.rows.end(), is_made)) return "";
+  if (shards_in(folder).empty()) {
+    return "the folder of what is stored, " + shards_folder(folder) + ", is missing or empty";
+  }
+  return results.damage.empty() && bed_damage.empty()
+             ? ""
+             : "nothing stored there can be read, since it is damaged or of another version";
 }
 
 }  // namespace
@@ -45,13 +54,14 @@ void add_command(CLI::App& app, ReportOptions& options) {
 
 int perform(const ReportOptions& options) {
   Results results = results_with_warnings(options.folder);
-  if (is_unreadable(results)) {
-    std::cerr << called_as() << ": " << options.folder
-              << ": nothing stored there can be read, since it is damaged or of another version; "
-                 "tables and page are left as they were\n";
+  const std::vector<std::string> bed_damage = check_beds(options.folder, results.rows);
+  std::cerr << damage_warnings(bed_damage);
+  const std::string why = why_nothing_is_read(options.folder, results, bed_damage);
+  if (!why.empty()) {
+    std::cerr << called_as() << ": " << options.folder << ": " << why
+              << "; tables and page are left as they were\n";
     return exit_file_system;
   }
-  std::cerr << damage_warnings(check_beds(options.folder, results.rows));
   const Analysis analysis = analyse(results.rows, options.folder);
   const bool is_at_work = is_worked_on(options.folder, results.last_runs);
   // A run at work writes them itself.
@@ -67,7 +77,7 @@ int perform(const ReportOptions& options) {
   const bool has_page = is_written("is no new page", [&] {
     std::cout << write_page(options.folder, results.provenance, results.rows, analysis);
   });
-  return has_tables && has_page ? exit_done : exit_file_system;
+  return has_tables && has_page && bed_damage.empty() ? exit_done : exit_file_system;
 }
 
 }  // namespace grainsweep

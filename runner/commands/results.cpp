@@ -18,7 +18,6 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/claims.hpp"
 #include "runner/store/files.hpp"
-#include "runner/store/states.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/tables/component_profiles.hpp"
 #include "runner/tables/components.hpp"
@@ -110,16 +109,19 @@ bool is_recorded(const std::string& folder, const Provenance& provenance,
   }
 }
 
+/// What to do about beds that are not sound.
+constexpr std::string_view run_again = "run the sweep again to make what is missing anew";
+
 /// Calls `use` with an outcome that has a stored bed; if that throws FileError because the bed is
-/// not sound, returns false and appends what is wrong to `damage`.
+/// not sound, returns false and appends what is wrong to `faults`.
 template <class Use>
-bool uses_bed(const Outcome& outcome, Use& use, std::vector<std::string>& damage) {
+bool uses_bed(const Outcome& outcome, Use& use, std::vector<BedFault>& faults) {
   if (outcome.stored_bytes == 0) return true;
   try {
     use(outcome);
     return true;
   } catch (const FileError& error) {
-    damage.emplace_back(error.what());
+    faults.push_back(fault_of_bed(outcome.job, error));
     return false;
   }
 }
@@ -127,11 +129,11 @@ bool uses_bed(const Outcome& outcome, Use& use, std::vector<std::string>& damage
 /// The same for each row's outcome; a row without a sound bed becomes pending.
 template <class Use>
 std::vector<std::string> use_beds(std::vector<Row>& rows, Use use) {
-  std::vector<std::string> damage;
+  std::vector<BedFault> faults;
   for (Row& row : rows) {
-    if (row.outcome && !uses_bed(*row.outcome, use, damage)) row.outcome.reset();
+    if (row.outcome && !uses_bed(*row.outcome, use, faults)) row.outcome.reset();
   }
-  return damage;
+  return lines_of(faults, run_again);
 }
 
 /// Throws FileError where a stored bed is not there with the size that it had. Asks for the size of
@@ -230,9 +232,9 @@ void record_sweep(const std::string& folder, const Provenance& provenance,
 }
 
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,
-                   std::vector<std::string>& damage) {
+                   std::vector<BedFault>& faults) {
   const auto read = [&](const Outcome& of) { read_bed(folder, of); };
-  return uses_bed(outcome, read, damage);
+  return uses_bed(outcome, read, faults);
 }
 
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows) {
@@ -245,9 +247,10 @@ std::vector<std::string> expect_beds(const std::string& folder, std::vector<Row>
 
 std::vector<std::string> expect_beds(const std::string& folder, Outcomes& outcomes) {
   ExpectBed expect(folder);
-  std::vector<std::string> damage;
+  std::vector<BedFault> faults;
   std::erase_if(outcomes,
-                [&](const auto& of_job) { return !uses_bed(*of_job.second, expect, damage); });
+                [&](const auto& of_job) { return !uses_bed(*of_job.second, expect, faults); });
+  std::vector<std::string> damage = lines_of(faults, run_again);
   std::sort(damage.begin(), damage.end());  // outcomes have no order
   return damage;
 }
@@ -324,9 +327,9 @@ std::string stored_packings(const std::string& folder) {
   const JournalReading stored = read_journals(folder, Detail::summary);
   std::string text;
   if (!stored.outcomes.empty()) text = counted(stored.outcomes.size(), "stored packing");
-  if (stored.damage.empty()) return text;
-  return text + (text.empty() ? "" : " and ") + std::to_string(stored.damage.size()) +
-         (stored.damage.size() == 1 ? " line or file" : " lines or files") +
+  if (stored.unread == 0) return text;
+  return text + (text.empty() ? "" : " and ") + std::to_string(stored.unread) +
+         (stored.unread == 1 ? " line or file" : " lines or files") +
          " of results that cannot be read (damaged, or of another version)";
 }
 

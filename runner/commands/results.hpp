@@ -10,6 +10,7 @@
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/report/report.hpp"
 #include "runner/store/shard_files.hpp"
+#include "runner/store/states.hpp"
 #include "runner/tables/families.hpp"
 #include "runner/tables/provenance.hpp"
 
@@ -57,12 +58,12 @@ Results read_called_for(GrowingSweep& growing, Provenance provenance, const std:
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 
-/// Whether the outcome's bed, if it has one, is stored whole; appends to `damage` why not.
+/// Whether the outcome's bed, if it has one, is stored whole; appends to `faults` why not.
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,
-                   std::vector<std::string>& damage);
+                   std::vector<BedFault>& faults);
 
 /// Reads the whole of each stored bed. A row whose bed is missing, damaged or that of another
-/// outcome becomes pending; returns what was left out, as in Results::damage.
+/// outcome becomes pending; returns what was left out, as in Results::damage, a line a file.
 std::vector<std::string> check_beds(const std::string& folder, std::vector<Row>& rows);
 
 /// Checks that the stored beds are there with the sizes they had, without opening any: 100,000 in a

@@ -107,6 +107,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
   keep_own(stored.damage, shard, journal_path(folder, files.name()));
   const std::vector<Cost> costs = costs_of(sweep.jobs);
   std::set<std::string> done;
+  std::vector<BedFault> faults;
   for (const std::size_t place : places) {
     const Job& job = sweep.jobs[place];
     if (stop_signal() != 0) {  // the rest is neither looked at nor made
@@ -116,7 +117,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
     const auto known = stored.outcomes.find(job.id);
     const bool is_done = known != stored.outcomes.end() &&
                          !is_to_be_made(*known->second, retry_failed) &&
-                         has_sound_bed(folder, *known->second, stored.damage);
+                         has_sound_bed(folder, *known->second, faults);
     if (is_done) {
       done.insert(job.id);
       running.estimates.add(costs[place].cpu_seconds, known->second->cpu_seconds);
@@ -128,7 +129,10 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
   running.done = done.size();
   running.beds = known_beds(folder, stored.outcomes, running.pending);
   std::cerr << damage_warnings(remove_checkpoints_of(folder, done));
-  if (!running.pending.empty()) std::cerr << damage_warnings(stored.damage);
+  if (!running.pending.empty()) {
+    std::cerr << damage_warnings(stored.damage)
+              << damage_warnings(lines_of(faults, "made anew now"));
+  }
   return running;
 }
 

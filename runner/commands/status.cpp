@@ -35,6 +35,7 @@ struct Standing {
   std::optional<Queue> queue;         ///< of jobs that the command `slurm` submitted
   double seconds_left = 0.0;          ///< of CPU, learned from finished packings
   int threads = 0;                    ///< of all runners at work
+  bool is_damaged = false;            ///< beds are missing or damaged, as far as they were read
 };
 
 double cpu_seconds_left(const std::vector<Row>& rows) {
@@ -66,7 +67,10 @@ std::optional<Queue> queue_of(const std::string& folder) {
 Standing standing_of(const std::string& folder, bool check) {
   Standing standing{folder, results_with_warnings(folder, Detail::summary), {}, {}, {}, {}};
   std::vector<Row>& rows = standing.results.rows;
-  std::cerr << damage_warnings(check ? check_beds(folder, rows) : expect_beds(folder, rows));
+  const std::vector<std::string> damage =
+      check ? check_beds(folder, rows) : expect_beds(folder, rows);
+  std::cerr << damage_warnings(damage);
+  standing.is_damaged = !damage.empty();
   standing.totals = totals_of(rows);
   const bool is_done = standing.totals.counts.pending == 0;
   for (Runner& runner : runners_in(folder, standing.results.last_runs)) {
@@ -205,14 +209,16 @@ void print_waiting(const std::string& folder) {
   }
 }
 
-/// Prints what is known of a folder, or adds it to `all`.
-void tell(const std::string& folder, const StatusOptions& options, nlohmann::ordered_json& all) {
+/// Prints what is known of a folder, or adds it to `all`; returns the exit code that it calls for.
+ExitCode tell(const std::string& folder, const StatusOptions& options,
+              nlohmann::ordered_json& all) {
   if (is_submitted(folder) && !file_exists(provenance_path(folder))) {
     options.json ? all.push_back(waiting_json(folder)) : print_waiting(folder);
-    return;
+    return exit_done;
   }
   const Standing standing = standing_of(folder, options.check);
   options.json ? all.push_back(status_json(standing)) : print_status(standing);
+  return standing.is_damaged ? exit_file_system : exit_done;
 }
 
 }  // namespace
@@ -223,7 +229,8 @@ void add_command(CLI::App& app, StatusOptions& options) {
   status.add_option("DIR", options.folders, "output folders")->required()->type_name("");
   status.add_flag("--json", options.json, "as JSON: an object, of several folders a list");
   status.add_flag("--check", options.check,
-                  "read every file of grains whole; otherwise only their names and sizes");
+                  "read every file of grains whole; otherwise only their names and sizes.\n"
+                  "Damage that is found ends it with code 4");
   status.footer("Example: grainsweep status out/quick");
 }
 
@@ -232,11 +239,11 @@ int perform(const StatusOptions& options) {
   ExitCode end = exit_done;
   for (const std::string& folder : options.folders) {
     try {
-      tell(folder, options, all);
+      end = std::max(end, tell(folder, options, all));
     } catch (const BadInput& error) {
       if (options.folders.size() == 1) throw;
       std::cerr << lines_without_controls(error.what()) << "\n";  // the others are still reported
-      end = exit_bad_input;
+      end = std::max(end, exit_bad_input);
     } catch (const FileError& error) {
       if (options.folders.size() == 1) throw;
       std::cerr << lines_without_controls(error.what()) << "\n";

@@ -67,16 +67,26 @@ void add(Outcomes&& own, Outcomes& all) {
   }
 }
 
+/// Tells of lines of a journal that cannot be read.
+std::string damage_text(const std::string& path, const std::vector<std::size_t>& lines) {
+  const std::string first = std::to_string(lines.front());
+  return path +
+         (lines.size() == 1
+              ? ":" + first + ": torn or damaged line, or one of another version"
+              : ": " + std::to_string(lines.size()) +
+                    " torn or damaged lines, or of another version, the first is line " + first) +
+         ", left out; run makes again what is missing";
+}
+
 /// Appends what the journal of one shard holds.
 void read_journal(const std::string& folder, const std::string& name, Detail detail,
                   JournalReading& reading) {
   const std::string path = journal_path(folder, name);
   Outcomes own;
   std::size_t number = 0;
-  bool is_last_damaged = false;
+  std::vector<std::size_t> damaged;
   for_each_line(path, [&](std::string_view line) {
     ++number;
-    is_last_damaged = false;
     if (auto outcome = read_journal_line(line, detail)) {
       outcome->shard = name;
       keep(std::move(outcome), own);
@@ -84,13 +94,13 @@ void read_journal(const std::string& folder, const std::string& name, Detail det
       reading.last_runs[name] = *run;
       keep(std::move(*run), reading.runs);
     } else {
-      is_last_damaged = true;
-      reading.damage.push_back(path + ":" + std::to_string(number) +
-                               ": torn or damaged line, or one of another version, left out; run "
-                               "makes again what is missing");
+      damaged.push_back(number);
     }
   });
-  if (is_last_damaged && is_locked(path)) reading.damage.pop_back();
+  const bool is_last_damaged = !damaged.empty() && damaged.back() == number;
+  if (is_last_damaged && is_locked(path)) damaged.pop_back();  // it is being written
+  if (!damaged.empty()) reading.damage.push_back(damage_text(path, damaged));
+  reading.unread += damaged.size();
   add(std::move(own), reading.outcomes);
 }
 
@@ -127,6 +137,7 @@ JournalReading read_journals(const std::string& folder, Detail detail) {
   for (const std::string& path : beds_without_journal(folder)) {
     reading.damage.push_back(path +
                              ": left out, its journal is missing; run makes again what is missing");
+    ++reading.unread;
   }
   std::erase_if(reading.runs,
                 [](const RunRecord& run) { return run.packings == 0 && !run.ended.empty(); });

@@ -33,7 +33,8 @@ struct JournalReading {
   Outcomes outcomes;
   std::vector<RunRecord> runs;                 ///< that made something, in the order they started
   std::map<std::string, RunRecord> last_runs;  ///< by shard
-  std::vector<std::string> damage;             ///< "out/shards/1-of-1.jsonl:3: torn or damaged ..."
+  std::vector<std::string> damage;  ///< "out/shards/1-of-1.jsonl:3: torn or damaged ...", by file
+  std::size_t unread = 0;           ///< lines and files that it tells of
 };
 
 /// The journals of all shards in `folder`. If a job has two outcomes, the later line counts within

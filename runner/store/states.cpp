@@ -1,5 +1,7 @@
 #include "runner/store/states.hpp"
 
+#include <algorithm>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -77,14 +79,41 @@ namespace {
 
 constexpr std::string_view bed_mark = "GRAINS14\n";
 
-/// Throws FileError: the bed is not what was stored.
+/// Throws BedError: the bed is not what was stored.
 [[noreturn]] void refuse(const std::string& folder, const Outcome& outcome,
                          const std::string& why) {
-  throw FileError(beds_path(folder, outcome.shard),
-                  "packing " + outcome.job + ": " + why + "; run the sweep again to make it anew");
+  throw BedError({beds_path(folder, outcome.shard), outcome.job, why});
 }
 
 }  // namespace
+
+BedError::BedError(BedFault fault)
+    : FileError(fault.file, "packing " + fault.packing + ": " + fault.what),
+      fault_(std::move(fault)) {}
+
+BedFault fault_of_bed(const std::string& packing, const FileError& error) {
+  const auto* const of_bed = dynamic_cast<const BedError*>(&error);
+  return of_bed != nullptr ? of_bed->fault() : BedFault{"", packing, error.what()};
+}
+
+std::vector<std::string> lines_of(const std::vector<BedFault>& faults, std::string_view remedy) {
+  std::vector<std::pair<BedFault, std::size_t>> counts;  // as they come first
+  for (const BedFault& fault : faults) {
+    const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& other) {
+      return std::tie(other.first.file, other.first.what) == std::tie(fault.file, fault.what);
+    });
+    known == counts.end() ? (void)counts.emplace_back(fault, 1) : (void)++known->second;
+  }
+  std::vector<std::string> lines;
+  lines.reserve(counts.size());
+  for (const auto& [fault, count] : counts) {
+    const std::string packings =
+        count == 1 ? "packing " + fault.packing : std::to_string(count) + " packings";
+    lines.push_back((fault.file.empty() ? "" : fault.file + ": ") + packings + ": " + fault.what +
+                    "; " + std::string(remedy));
+  }
+  return lines;
+}
 
 Packing packing_of(StoredBed&& bed, const PackingResult& result) {
   Packing packing;

@@ -16,6 +16,7 @@
 
 #include "engine/results.hpp"
 #include "engine/scene/box.hpp"
+#include "runner/store/files.hpp"
 #include "runner/store/outcome.hpp"
 
 namespace grainsweep {
@@ -32,11 +33,35 @@ struct StoredBed : SettledBed {
 /// The packing that such a bed was stored of.
 Packing packing_of(StoredBed&& bed, const PackingResult& result);
 
-/// The whole bed, checked. Throws FileError if there is none, if it is damaged or of another
-/// version, or if it is not the bed of this outcome.
+/// Why a stored bed cannot be used.
+struct BedFault {
+  std::string file;     ///< of beds; empty where `what` names it
+  std::string packing;  ///< id
+  std::string what;     ///< "missing", "damaged, or of another version"
+};
+
+/// A stored bed that is not there as it was stored.
+class BedError : public FileError {
+ public:
+  explicit BedError(BedFault fault);
+  const BedFault& fault() const { return fault_; }
+
+ private:
+  BedFault fault_;
+};
+
+/// What this error says of the bed of a packing.
+BedFault fault_of_bed(const std::string& packing, const FileError& error);
+
+/// A line for each file and fault: "out/shards/1-of-1.beds: packing a1: missing; ", and then what
+/// is or should be done, `remedy`. Of several packings it has their number in place of the id.
+std::vector<std::string> lines_of(const std::vector<BedFault>& faults, std::string_view remedy);
+
+/// The whole bed, checked. Throws BedError if there is none, if it is damaged or of another
+/// version, or if it is not the bed of this outcome; FileError if the file cannot be read.
 StoredBed read_bed(const std::string& folder, const Outcome& outcome);
 
-/// Checks only the size of the file that holds the bed. Throws FileError if there is no file, or if
+/// Checks only the size of the file that holds the bed. Throws BedError if there is no file, or if
 /// it ends before the bed does.
 void expect_bed(const std::string& folder, const Outcome& outcome,
                 const std::optional<std::int64_t>& file_size);

@@ -190,6 +190,30 @@ expect_code 4 "$program" report damaged
 expect_text error.txt "damaged: nothing stored there can be read, since it is damaged or of another"
 cmp damaged/packings.csv out/small/packings.csv || fail "tables that could not be made again are gone"
 
+# So it stays where all beds are gone, or the whole folder of what is stored.
+rm -rf damaged && cp -r out/small damaged
+rm damaged/shards/1-of-1.beds
+for command in report status compare; do
+  [ $command != compare ] || cp out/small/shards/1-of-1.beds damaged/shards # and then one damaged bed
+  [ $command != compare ] || damage_bed damaged "$(packing_lines damaged | grep "$job")" 50
+  with=() && [ $command != compare ] || with=(--with "$configs/paper-spheres.reference.json")
+  expect_code 4 "$program" $command damaged "${with[@]}"
+  [ "$(grep -c '^warning: damaged/shards/1-of-1.beds: ' error.txt)" -eq 1 ] || fail "not one warning"
+done
+cmp damaged/packings.csv out/small/packings.csv || fail "report wrote empty tables over good ones"
+expect_code 0 "$program" status damaged
+expect_code 4 "$program" status --check damaged
+expect_code 4 "$program" report damaged
+[ "$(grep -c ',pending,' damaged/packings.csv)" -eq 1 ] || fail "a damaged bed is in the table"
+rm -r damaged/shards && cp out/small/packings.csv damaged
+expect_code 4 "$program" report damaged
+expect_text error.txt "damaged/shards, is missing or empty; tables and page are left as they were"
+cmp damaged/packings.csv out/small/packings.csv || fail "report wrote empty tables over good ones"
+rm -rf damaged && cp -r out/small damaged
+rm damaged/shards/1-of-1.beds
+"$program" run small.json --no-report --out damaged >out.txt 2>error.txt || [ $? -eq 1 ]
+expect_text error.txt "warning: damaged/shards/1-of-1.beds: 10 packings: missing; made anew now"
+
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json
 expect_code 0 "$program" validate mm.json

@@ -258,6 +258,20 @@ TEST_CASE("a torn line is told as left out, be it of a run or of a packing that 
   }
 }
 
+TEST_CASE("many lines that cannot be read are told in one, with their number") {
+  const TemporaryFolder folder;
+  const std::string path = first_journal(folder);
+  replace_file(path, journal_line(sample_outcome("a", 0.6, 6.0)) + "torn\ntorn\ntorn");
+  const JournalReading reading = read_journals(folder.path());
+  CHECK(reading.unread == 3);
+  CHECK(reading.damage ==
+        std::vector<std::string>{path +
+                                 ": 3 torn or damaged lines, or of another version, the first is "
+                                 "line 2, left out; run makes again what is missing"});
+  const FileLock at_work(path);  // the last one is just being written
+  CHECK(read_journals(folder.path()).unread == 2);
+}
+
 TEST_CASE("a line that a runner is just writing is no damage") {
   const TemporaryFolder folder;
   const std::string path = first_journal(folder);
