@@ -85,6 +85,18 @@ constexpr std::string_view bed_mark = "GRAINS14\n";
   throw BedError({beds_path(folder, outcome.shard), outcome.job, why});
 }
 
+/// "packing a1", "packings a1, a2", "20 packings, a1, a2 and others".
+std::string names_of(const std::vector<const BedFault*>& faults) {
+  constexpr std::size_t most_named = 3;
+  const bool are_many = faults.size() > most_named;
+  std::string names;
+  for (std::size_t k = 0; k < (are_many ? 2 : faults.size()); ++k) {
+    names += (k == 0 ? "" : ", ") + faults[k]->packing;
+  }
+  if (are_many) return std::to_string(faults.size()) + " packings, " + names + " and others";
+  return (faults.size() == 1 ? "packing " : "packings ") + names;
+}
+
 }  // namespace
 
 BedError::BedError(BedFault fault)
@@ -97,19 +109,18 @@ BedFault fault_of_bed(const std::string& packing, const FileError& error) {
 }
 
 std::vector<std::string> lines_of(const std::vector<BedFault>& faults, std::string_view remedy) {
-  std::vector<std::pair<BedFault, std::size_t>> counts;  // as they come first
+  std::vector<std::vector<const BedFault*>> alike;  // as they come first
   for (const BedFault& fault : faults) {
-    const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& other) {
-      return std::tie(other.first.file, other.first.what) == std::tie(fault.file, fault.what);
+    const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& others) {
+      return std::tie(others[0]->file, others[0]->what) == std::tie(fault.file, fault.what);
     });
-    known == counts.end() ? (void)counts.emplace_back(fault, 1) : (void)++known->second;
+    (known == alike.end() ? alike.emplace_back() : *known).push_back(&fault);
   }
   std::vector<std::string> lines;
-  lines.reserve(counts.size());
-  for (const auto& [fault, count] : counts) {
-    const std::string packings =
-        count == 1 ? "packing " + fault.packing : std::to_string(count) + " packings";
-    lines.push_back((fault.file.empty() ? "" : fault.file + ": ") + packings + ": " + fault.what +
+  lines.reserve(alike.size());
+  for (const std::vector<const BedFault*>& some : alike) {
+    const std::string& file = some[0]->file;
+    lines.push_back((file.empty() ? "" : file + ": ") + names_of(some) + ": " + some[0]->what +
                     "; " + std::string(remedy));
   }
   return lines;

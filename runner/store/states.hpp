@@ -54,7 +54,7 @@ class BedError : public FileError {
 BedFault fault_of_bed(const std::string& packing, const FileError& error);
 
 /// A line for each file and fault: "out/shards/1-of-1.beds: packing a1: missing; ", and then what
-/// is or should be done, `remedy`. Of several packings it has their number in place of the id.
+/// is or should be done, `remedy`. Of many packings it has their number and two ids.
 std::vector<std::string> lines_of(const std::vector<BedFault>& faults, std::string_view remedy);
 
 /// The whole bed, checked. Throws BedError if there is none, if it is damaged or of another

@@ -234,7 +234,7 @@ TEST_CASE("a bed that is cut or gone is seen by its size, a flipped bit by readi
   damage = expect_beds(folder.path(), rows);  // one line for all that miss the same file
   REQUIRE(damage.size() == 1);
   CHECK(damage[0] ==
-        path + ": 2 packings: missing; run the sweep again to make what is missing anew");
+        path + ": packings a1, a2: missing; run the sweep again to make what is missing anew");
   CHECK(status_of(rows[1]) == "pending");
 }
 

@@ -212,7 +212,24 @@ cmp damaged/packings.csv out/small/packings.csv || fail "report wrote empty tabl
 rm -rf damaged && cp -r out/small damaged
 rm damaged/shards/1-of-1.beds
 "$program" run small.json --no-report --out damaged >out.txt 2>error.txt || [ $? -eq 1 ]
-expect_text error.txt "warning: damaged/shards/1-of-1.beds: 10 packings: missing; made anew now"
+expect_text error.txt "warning: damaged/shards/1-of-1.beds: 10 packings, " " and others: missing; made anew now"
+
+# Packings that have other names now, as their groups have other numbers, are not there twice.
+cp -r out/small wider
+sed 's/\[3, 4/[2.5, 3, 4/' small.json >wider.json
+"$program" run wider.json --out wider --no-report --quiet || [ $? -eq 1 ]
+expect_code 0 "$program" export wider --format xyz
+expect_text error.txt "note: " "of an earlier export removed, as the same packings have other names now"
+[ "$(ls wider/export/*.xyz | wc -l)" -eq 12 ] || fail "files of an earlier export are left"
+[ "$(grep -c '\.xyz,' wider/export/index.csv)" -eq 12 ] || fail "the index does not list 12 files"
+ls wider/export/*.vtp >/dev/null || fail "files of another format are gone"
+cmp <(values_of out/small) <("$program" run small.json --out wider --no-report --quiet >&2 || :; values_of wider) ||
+  fail "another form of the sweep in the folder changes values"
+expect_code 0 "$program" status wider
+expect_text out.txt "2 stored packings belong to another form of the sweep; " "collect wider --out OTHER --current"
+expect_code 0 env PATH=none "$program" collect wider --out only --current
+expect_text error.txt "note: wider: 2 packings of another form of its sweep left out"
+[ "$(packing_lines only | wc -l)" -eq 10 ] || fail "--current collected others"
 
 # Units that are added later change no packing, and all that is printed.
 sed 's/"seed": 3/"units": { "d": 3.2, "unit": "mm", "density": 2500 }, "seed": 3/' small.json >mm.json

@@ -45,9 +45,12 @@ TEST_CASE("beds that cannot be used are told once for each file and reason, as t
                                         {"b", "p3", "missing"},
                                         {"b", "p4", "cut off"}};
   CHECK(lines_of(faults, "left out") ==
-        std::vector<std::string>{"b: 2 packings: missing; left out",
+        std::vector<std::string>{"b: packings p1, p3: missing; left out",
                                  "a: packing p2: missing; left out",
                                  "b: packing p4: cut off; left out"});
+  const std::vector<BedFault> many(20, {"b", "p", "missing"});
+  CHECK(lines_of(many, "left out") ==
+        std::vector<std::string>{"b: 20 packings, p, p and others: missing; left out"});
   CHECK(fault_of_bed("p", BedError({"a", "p2", "cut off"})).file == "a");
   CHECK(lines_of({fault_of_bed("p", FileError("a", "read", EIO))}, "left out").front() ==
         "packing p: a: cannot read: Input/output error; left out");
