@@ -167,7 +167,7 @@ bool store(const std::string& folder, Boxed<Outcome>&& outcome, Boxed<Outcome>& 
            Collection& to) {
   if (outcome->stored_bytes > 0 && !copy_bed(folder, *outcome, to)) return false;
   if (known) to.files.count_after(*known);
-  to.files.add(*outcome);
+  *outcome = to.files.add(std::move(*outcome));
   known = std::move(outcome);
   return true;
 }

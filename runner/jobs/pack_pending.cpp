@@ -66,9 +66,9 @@ Outcome store(const Job& job, ShardFiles& files, Finished&& finished, bool no_gr
     if (!no_grains) outcome.bed = name_of_bed(job, outcome.result);
     files.add_bed(bed_of(job, outcome.result, std::move(finished.packing), no_grains), outcome);
   }
-  files.add(outcome);
+  Outcome written = files.add(std::move(outcome));
   files.flush();
-  return outcome;
+  return written;
 }
 
 std::vector<double> cpu_seconds_of(const std::vector<Cost>& costs) {

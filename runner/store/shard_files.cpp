@@ -72,13 +72,19 @@ void ShardFiles::add_bed(const StoredBed& bed, Outcome& outcome) {
   beds_ += bytes;
 }
 
-void ShardFiles::add(Outcome outcome) {
+void ShardFiles::count_after(const Outcome& known) {
+  const auto [at, is_new] = known_at_.try_emplace(known.job, known.finished_at);
+  if (!is_new) at->second = std::max(at->second, known.finished_at);
+}
+
+Outcome ShardFiles::add(Outcome outcome) {
   const auto known = known_at_.find(outcome.job);
   if (known != known_at_.end()) {
     constexpr double forever = std::numeric_limits<double>::infinity();
     outcome.finished_at = std::max(outcome.finished_at, std::nextafter(known->second, forever));
   }
   lines_ += journal_line(outcome);
+  return outcome;
 }
 
 void ShardFiles::add(const RunRecord& run) { lines_ += journal_line(run); }

@@ -23,11 +23,12 @@ class ShardFiles {
 
   /// Whatever is added for this outcome's job from now on counts more than this outcome, in
   /// whichever journal it is: it was finished later, even where a clock was set back.
-  void count_after(const Outcome& known) { known_at_[known.job] = known.finished_at; }
+  void count_after(const Outcome& known);
 
   /// Sets where the bed is stored. To be followed by add(outcome).
   void add_bed(const StoredBed& bed, Outcome& outcome);
-  void add(Outcome outcome);
+  /// Returns the outcome as it is written, with the time that makes it count.
+  Outcome add(Outcome outcome);
   void add(const RunRecord& run);
   void flush();
 

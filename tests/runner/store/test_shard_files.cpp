@@ -72,7 +72,10 @@ TEST_CASE("what is made anew counts more than what was known, by whatever clock,
     remade.finished_at = finished_at;
     ShardFiles files(folder.path(), {1, 3}, sample_run());
     files.count_after(known);
-    files.add(remade);
+    Outcome earlier = known;
+    earlier.finished_at -= 7.0;
+    files.count_after(earlier);  // the latest one counts
+    CHECK(files.add(remade).finished_at > known.finished_at);
     files.flush();
     const Outcome counts = *read_journals(folder.path()).outcomes.at("a");
     CHECK(counts.result.solid_fraction == 0.62);
