@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "engine/text.hpp"
@@ -32,7 +33,8 @@ std::vector<Conversion> conversions_of(const std::string& name, const std::strin
 std::string converted(const std::string& text, const Conversion& to) {
   constexpr std::size_t short_number = 15;
   if (text.empty()) return "";
-  const double value = to.offset + to.factor * std::stod(text);
+  const double value =
+      to.offset + to.factor * std::strtod(text.c_str(), nullptr);  // stod throws on 1e-310
   return text.size() <= short_number ? short_cell(value, 15) : cell(value);
 }
 

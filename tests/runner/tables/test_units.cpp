@@ -54,6 +54,7 @@ TEST_CASE("a short number is a short one in any unit") {
   CHECK(3.2 * 0.1 != 0.32);
   CHECK(converted("0.1", length) == "0.32");
   CHECK(converted("6", length) == "19.2");
+  CHECK(std::strtod(converted("1e-310", length).c_str(), nullptr) == 3.2 * 1e-310);
   CHECK(converted("0.12345678901234567", length) == cell(3.2 * 0.12345678901234567));
 }
 
