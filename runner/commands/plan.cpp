@@ -387,7 +387,9 @@ int perform(const PlanOptions& options) {
     print_text(sweep, costs, left.costs.size(), needs, grown_seconds, threads, names);
     if (grows(whole)) {
       std::cout << next_text(growing, made, names) << growth_text(most)
-                << "; with --out the packings made so far tell how many come next\n";
+                << (options.out.empty()
+                        ? "; with --out the packings made so far tell how many come next\n"
+                        : "\n");
     }
     if (options.shards > 0) std::cout << shards_text(sweep, costs, options.shards);
   }

@@ -25,9 +25,20 @@ void read_parameter(std::size_t index, const Json& value, const std::string& poi
   if (reading.value) {
     assignments.push_back({index, std::move(*reading.value), pointer});
   } else {
-    diagnostics.push_back({pointer, reading.error});
+    const bool is_one_value =
+        pointer.starts_with("/base/") || pointer.find("/set/") < pointer.size();
+    const bool is_list = value.is_array() && reading.error.ends_with(describe(value));
+    const char* const hint = is_one_value && is_list && !value.empty()
+                                 ? "; a list of values belongs into the \"grid\" of a block"
+                                 : "";
+    diagnostics.push_back({pointer, reading.error + hint});
   }
 }
+
+constexpr const char* how_high =
+    "; fill.solid_height says how much is filled in: a bed of height h is about 0.6 h of solid "
+    "(its "
+    "solid fraction times h), and plan prints the height to expect";
 
 /// Why there is no parameter for what people of the field look for at `path`; "" for other paths.
 /// "*.mu" stands for "mu" in any group.
@@ -36,7 +47,10 @@ std::string absence_of(const std::string& path) {
     return "components cannot be varied one by one; list whole mixtures: "
            R"("grid": {"shape.mixture": [[...], [...]]})";
   }
-  using Reason = std::pair<const char*, std::vector<std::string_view>>;
+  if (path.starts_with("shape.") && !why_not_packed(path.substr(6)).empty()) {
+    return why_not_packed(path.substr(6));
+  }
+  using Reason = std::pair<std::string, std::vector<std::string_view>>;
   static const std::vector<Reason> reasons = {
       {"grains are frictionless", {"*.friction", "*.mu"}},
       {"grains do not bounce", {"*.restitution"}},
@@ -49,10 +63,9 @@ std::string absence_of(const std::string& path) {
       {"\"units\" stands at the top of the file; here lengths are in d, the mean diameter of the "
        "large grains, times in sqrt(d/g)",
        {"*.unit", "*.units"}},
-      {"the box is open at the top; fill.solid_height says how much is filled in",
+      {std::string("the box is open at the top") + how_high,
        {"height", "depth", "box.height", "box.depth", "box.z", "fill.height"}},
-      {"a tube is open at the top; fill.solid_height says how much is filled in",
-       {"tube.height", "tube.length"}},
+      {std::string("a tube is open at the top") + how_high, {"tube.height", "tube.length"}},
       {"the box is open at the top", {"*.lid"}},
       {"write \"tube\": {\"diameter\": 7} in the place of the box", {"cylinder", "box.cylinder"}},
       {"a tube has a diameter; d is the mean diameter of the large grains",

@@ -181,7 +181,7 @@ SizesReading parse_sizes(const std::string& text, const std::string& file) {
          "the first line must name the columns diameter and one of passing, retained and share, "
          "each once; is "
          "\"" +
-             shortened(std::string(lines.front())) + "\"" + separator_hint(lines.front()));
+             shortened(std::string(trimmed(lines.front()))) + "\"" + separator_hint(lines.front()));
     return reading;
   }
   std::vector<SizeRowRead> rows;

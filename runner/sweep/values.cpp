@@ -9,17 +9,39 @@
 
 #include "runner/sweep/mixture_components.hpp"
 #include "runner/sweep/suggest.hpp"
+#include "runner/sweep/text_lines.hpp"
 
 namespace grainsweep {
 namespace {
 
 ValueReading fits(Value value) { return {std::move(value), ""}; }
 
+/// A number at the front of a text, and what follows it without blanks; nothing if none is there.
+std::optional<std::pair<double, std::string_view>> number_with_unit(const Json& value) {
+  if (!value.is_string()) return std::nullopt;
+  const auto& text = value.get_ref<const std::string&>();
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc()) return std::nullopt;
+  return std::pair(number, trimmed({read.ptr, static_cast<std::size_t>(end - read.ptr)}));
+}
+
+/// What to do where a length is given in a unit.
+std::string of_length(const Parameter& parameter, const Json& value) {
+  constexpr std::array units = {"um", "µm", "mm", "cm", "m"};
+  const auto given = number_with_unit(value);
+  const bool has_unit =
+      given && std::find(units.begin(), units.end(), given->second) != units.end();
+  if (!has_unit || parameter.unit != "d") return "";
+  return "; lengths are in d, the mean diameter of the large grains: write how many of them it is";
+}
+
 ValueReading mismatch(const Parameter& parameter, const Json& value) {
   const bool is_number = parameter.kind == ValueKind::number && value.is_string();
   return {{},
           "must be " + wanted_value(parameter) + ", is " + describe(value) +
-              (is_number ? of_percent(value) : "")};
+              (is_number ? of_percent(value) + of_length(parameter, value) : "")};
 }
 
 ValueReading read_number(const Parameter& parameter, const Json& value) {
@@ -74,6 +96,10 @@ ValueReading read_choice(const Parameter& parameter, const Json& value) {
   const auto& former = parameter.former_choices;
   if (std::find(former.begin(), former.end(), name) != former.end()) {
     reading.error += ", which this version no longer has; take \"" + names.back() + "\"";
+    return reading;
+  }
+  if (const auto why = why_not_packed(name); parameter.role == Role::shape && !why.empty()) {
+    reading.error += "; " + why;
     return reading;
   }
   const std::string near = nearest(name, names);
@@ -217,14 +243,16 @@ std::string range_error(const Parameter& parameter, const Value& value) {
 
 std::string of_percent(const Json& value) {
   if (value.is_number()) return percent_hint({0.0, 1.0}, value.get<double>());
-  if (!value.is_string()) return "";
-  const auto& text = value.get_ref<const std::string&>();
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number);
-  const std::string_view unit(read.ptr, static_cast<std::size_t>(end - read.ptr));
-  const bool is_percentage = read.ec == std::errc() && (unit == "%" || unit == " %");
-  return is_percentage ? "; write " + bound_text(number / 100.0) : "";
+  const auto given = number_with_unit(value);
+  return given && given->second == "%" ? "; write " + bound_text(given->first / 100.0) : "";
+}
+
+std::string why_not_packed(std::string_view shape) {
+  constexpr std::array names = {"ring",    "rings",    "torus",       "tube",   "hollow_cylinder",
+                                "raschig", "trilobe",  "quadrilobe",  "saddle", "star",
+                                "cross",   "dumbbell", "raschig_ring"};
+  if (std::find(names.begin(), names.end(), shape) == names.end()) return "";
+  return "a " + std::string(shape) + " is not convex, and only convex shapes are packed";
 }
 
 std::optional<std::int64_t> whole_number_in(const Json& value, std::int64_t low, std::int64_t high,

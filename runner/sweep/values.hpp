@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "runner/sweep/json_text.hpp"
 #include "runner/sweep/parameters.hpp"
@@ -35,6 +36,9 @@ std::string describe(const Json& value);
 /// What to write for a share that is given in percent, for the end of a message: of 30
 /// "; divide percentages by 100", of the text "3%" "; write 0.03"; else "".
 std::string of_percent(const Json& value);
+
+/// Why there is no shape of this name, which people may look for; "" for other names.
+std::string why_not_packed(std::string_view shape);
 
 /// How values of a kind are called in documentation: "list of numbers".
 const char* name_of(ValueKind kind);

@@ -151,8 +151,10 @@ TEST_CASE("why there is no parameter of a name depends on where it is looked for
   const std::string is_unit = "the mean diameter of the large grains is d, the unit of length";
   CHECK(hint(R"({"diameter": 1})") == is_unit);
   CHECK(hint(R"({"sizes": {"mean": 1}})") == is_unit);
-  CHECK(hint(R"({"tube": {"diameter": 5, "length": 9}})") ==
-        "a tube is open at the top; fill.solid_height says how much is filled in");
+  CHECK(
+      hint(R"({"tube": {"diameter": 5, "length": 9}})") ==
+      "a tube is open at the top; fill.solid_height says how much is filled in: a bed of height h "
+      "is about 0.6 h of solid (its solid fraction times h), and plan prints the height to expect");
   CHECK(hint(R"({"shape": {"sphere": {}}})") ==
         "write \"shape\": \"sphere\"; a sphere has no parts");
   CHECK(hint(R"({"replicates": 3})") == "it stands beside \"base\", or in a block beside \"set\"");
@@ -167,7 +169,8 @@ TEST_CASE("why there is no parameter of a name depends on where it is looked for
   CHECK(hint(R"({"sizes": {"polydispersity": 0.1}})") ==
         "sizes of a class are Gaussian; sizes.spread is their deviation over the mean");
   const std::string is_open =
-      "the box is open at the top; fill.solid_height says how much is filled in";
+      "the box is open at the top; fill.solid_height says how much is filled in: a bed of height h "
+      "is about 0.6 h of solid (its solid fraction times h), and plan prints the height to expect";
   CHECK(hint(R"({"box": {"z": 20}})") == is_open);
   CHECK(hint(R"({"box.depth": 20})") == is_open);
   CHECK(hint(R"({"sizes": {"distribution": {"lognormal": {"by": 1}}}})") ==

@@ -70,6 +70,7 @@ TEST_CASE("what a table of sizes lacks is told with its line") {
       "sieves.csv:1: the first line must name the columns diameter and one of passing, retained "
       "and share, each once; is ";
   CHECK(errors_of_table("d,passing\n1,0\n") == Messages{wanted + "\"d,passing\""});
+  CHECK(errors_of_table("d,passing\r\n1,0\r\n") == Messages{wanted + "\"d,passing\""});
   CHECK(errors_of_table("diameter,passing,share\n") ==
         Messages{wanted + "\"diameter,passing,share\""});
   CHECK(errors_of_table("diameter,passing,passing\n1,0,0\n") ==
