@@ -83,6 +83,13 @@ std::string notes_on_widths(const Reference& reference, const Analysis& analysis
   return notes;
 }
 
+/// The published values in a file. Throws BadInput, also if it cannot be read: it was named.
+Reference named_reference(const std::string& file) try {
+  return read_reference(file);
+} catch (const FileError& error) {
+  throw BadInput(error.what());
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, CompareOptions& options) {
@@ -108,7 +115,7 @@ void add_command(CLI::App& app, CompareOptions& options) {
 int perform(const CompareOptions& options) {
   Results results = results_with_warnings(options.folder);
   const Reference reference =
-      read_reference(reference_file(options, results.provenance, results.rows));
+      named_reference(reference_file(options, results.provenance, results.rows));
   const std::vector<std::string> damage = check_beds(options.folder, results.rows);
   std::cerr << damage_warnings(damage);
   const ExitCode end = damage.empty() ? exit_done : exit_file_system;
