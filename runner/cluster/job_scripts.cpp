@@ -31,8 +31,8 @@ std::string directive(const std::string& text) { return "#SBATCH --" + text + "\
 std::string directives(const ClusterRun& run, const std::string& log) {
   const Division& division = run.division;
   std::string text = directive("job-name=" + shell_word(run.name)) +
-                     directive("partition=" + run.partition) + directive("nodes=1") +
-                     directive("ntasks=1") +
+                     (run.partition.empty() ? "" : directive("partition=" + run.partition)) +
+                     directive("nodes=1") + directive("ntasks=1") +
                      directive("cpus-per-task=" + std::to_string(division.threads));
   if (division.bytes > 0.0) {
     text += directive("mem=" + std::to_string(std::llround(division.bytes / 1048576.0)) + "M");

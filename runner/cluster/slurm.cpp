@@ -16,16 +16,26 @@ namespace {
 
 constexpr int not_found = 127;  // what a shell ends with
 
+constexpr const char* without_slurm =
+    "; call this where jobs of Slurm are submitted. Without Slurm: run --shard, and the scripts "
+    "for "
+    "other engines in configs/cluster";
+
 /// What a command of Slurm printed. `name` is its first word.
 std::string answer_to(const std::string& name, const std::string& options) {
   Said said = said_by(name + " " + options + " 2>&1");
-  if (said.code == not_found) {
-    throw BadInput(name +
-                   ": not found; call this where jobs of Slurm are submitted. Without Slurm: "
-                   "run --shard, and the scripts for other engines in configs/cluster");
-  }
+  if (said.code == not_found) throw NoCluster(name + ": not found" + without_slurm);
   if (said.code != 0) throw BadInput(name + ": " + said.text);
   return std::move(said.text);
+}
+
+/// The same of a question to the cluster, which fails where there is none.
+std::string cluster_said(const std::string& name, const std::string& options) try {
+  return answer_to(name, options);
+} catch (const NoCluster&) {
+  throw;
+} catch (const BadInput& error) {
+  throw NoCluster(error.what() + std::string("\nno cluster answers") + without_slurm);
 }
 
 /// The number at the front; 0 if there is none. "2+" is what Slurm calls two or more.
@@ -122,9 +132,9 @@ const Partition& chosen(const std::vector<Partition>& partitions, const std::str
 }
 
 Partition ask_for_partition(const std::string& name) {
-  const std::string lines = answer_to("sinfo", "--noheader --exact --format='%P|%l|%c|%m|%D'");
+  const std::string lines = cluster_said("sinfo", "--noheader --exact --format='%P|%l|%c|%m|%D'");
   Partition partition = chosen(partitions_in(lines), name);
-  partition.limits.elements = array_limit_in(answer_to("scontrol", "show config"));
+  partition.limits.elements = array_limit_in(cluster_said("scontrol", "show config"));
   return partition;
 }
 

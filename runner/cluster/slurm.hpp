@@ -8,8 +8,14 @@
 #include <vector>
 
 #include "runner/cluster/division.hpp"
+#include "runner/exit_codes.hpp"
 
 namespace grainsweep {
+
+/// Slurm is not here, or has no cluster to answer for.
+struct NoCluster : BadInput {
+  using BadInput::BadInput;
+};
 
 struct Partition {
   std::string name;
@@ -30,7 +36,7 @@ int array_limit_in(std::string_view configuration);
 /// lists the partitions that there are.
 const Partition& chosen(const std::vector<Partition>& partitions, const std::string& name);
 
-/// Asks the cluster.
+/// Asks the cluster. Throws NoCluster where there is none.
 Partition ask_for_partition(const std::string& name);
 
 /// Submits a script, which begins after all elements of the job `after` have ended, if that is not

@@ -38,9 +38,31 @@ ClusterRun cluster_run(const SlurmOptions& options, const Sweep& sweep, const st
           division};
 }
 
+/// The partition of the cluster. Where there is none, scripts can be printed all the same if the
+/// options decide in its place: then one without limits.
+Partition partition_for(const SlurmOptions& options) try {
+  return ask_for_partition(options.partition);
+} catch (const NoCluster& error) {
+  const bool decide = options.shards > 0 && options.threads > 0;
+  if (!options.print) throw;
+  if (!decide) {
+    throw BadInput(std::string(error.what()) +
+                   "\nTo print the scripts here, give --shards and --threads");
+  }
+  std::cerr
+      << "note: no cluster answers here: --shards and --threads decide, and no memory is asked "
+         "for"
+      << (options.partition.empty() ? ", nor a partition" : "") << "\n";
+  Partition partition;
+  partition.name = options.partition;
+  partition.limits.nodes = options.shards;
+  partition.limits.cores = options.threads;
+  return partition;
+}
+
 std::string limits_text(const Partition& partition) {
   const ClusterLimits& limits = partition.limits;
-  std::string text = "Partition " + partition.name + ": " +
+  std::string text = (partition.name.empty() ? "Asked for" : "Partition " + partition.name) + ": " +
                      counted(static_cast<std::size_t>(limits.nodes), "node") + " of " +
                      counted(static_cast<std::size_t>(limits.cores), "core");
   if (std::isfinite(limits.memory)) text += " and " + fixed(limits.memory / 1e9, 1) + " GB";
@@ -153,7 +175,7 @@ int perform(const SlurmOptions& options) {
   const std::vector<Cost> most = costs_of(whole.jobs);
   const std::vector<Cost> costs = costs_of(GrowingSweep(whole, {}).now().jobs);
   refuse_controls(absolute(options.file), absolute(folder));
-  const Partition partition = ask_for_partition(options.partition);
+  const Partition partition = partition_for(options);
   const Division division =
       divide(parts_of(whole, most), most, partition.limits, options.shards, options.threads);
   std::cerr << memory_warning(costs, partition.limits.memory) << limits_text(partition)

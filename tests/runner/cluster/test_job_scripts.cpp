@@ -42,6 +42,12 @@ TEST_CASE("the job behind the array tolerates what it is told to, and goes on wh
   CHECK_THAT(script, !Contains("--array") && !Contains("--shard"));
 }
 
+TEST_CASE("where no partition is known none is asked for") {
+  ClusterRun run = small_run();
+  run.partition = "";
+  CHECK_THAT(shards_script(run), !Contains("partition") && Contains("--nodes=1"));
+}
+
 TEST_CASE("a folder may have a name that Slurm would take for a pattern") {
   ClusterRun run = small_run();
   run.folder = "/out/5%a";
