@@ -295,8 +295,7 @@ int perform(const ExportOptions& options) {
   std::cerr << damage_warnings(lines_of(written.faults, "left out"));
   if (written.jobs.empty() && !written.faults.empty()) return exit_file_system;
   if (written.jobs.empty() && !written.refused.empty()) throw BadInput(written.refused.front());
-  if (written.jobs.empty())
-    throw BadInput(options.folder + ": its packings were stored without grains");
+  const std::vector<std::string> old = superseded(to, written.jobs);
   replace_file(to + "/index.csv", index_csv(to, rows, endings(), written.jobs));
   if (index) {
     std::cerr << "note: files of an earlier export were replaced by those of other packings, whose "

@@ -70,6 +70,21 @@ std::map<std::string, std::string> index_lines(const std::string& folder) {
   return lines;
 }
 
+/// Those with a file of that ending, of the packings of these files.
+class HaveFiles {
+ public:
+  explicit HaveFiles(const std::map<std::string, std::string>& written) {
+    for (const auto& [file, job] : written) have_.emplace(job, ending_of(file));
+  }
+  /// Whether the packing of a line of an index has a file of the ending that the line's one has.
+  bool holds(const std::string& file, const std::string& line) const {
+    return have_.contains({job_in(file, line), ending_of(file)});
+  }
+
+ private:
+  std::set<std::pair<std::string, std::string>> have_;  // job and ending
+};
+
 }  // namespace
 
 std::vector<std::string> file_stems(const std::vector<Row>& rows) {
@@ -97,6 +112,17 @@ std::optional<std::string> index_without(const std::string& folder,
   return is_changed ? std::optional(text) : std::nullopt;
 }
 
+std::vector<std::string> superseded(const std::string& folder,
+                                    const std::map<std::string, std::string>& written) {
+  const HaveFiles have(written);
+  std::vector<std::string> files;
+  for (const auto& [file, line] : index_lines(folder)) {
+    const bool is_other = !written.contains(file) && have.holds(file, line);
+    if (is_other && file_exists(folder + "/" + file)) files.push_back(file);
+  }
+  return files;
+}
+
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
                       const std::map<std::string, std::string>& written) {
@@ -119,11 +145,9 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                         cell(job.seed), status_of(rows[k])});
     }
   }
-  std::set<std::pair<std::string, std::string>> have_others;  // job and ending
-  for (const auto& [file, job] : written) have_others.emplace(job, ending_of(file));
+  const HaveFiles have(written);
   for (const auto& [file, line] : listed) {
-    const bool is_twice = have_others.contains({job_in(file, line), ending_of(file)});
-    if (there.contains(file) && !is_twice) text += line + "\n";
+    if (there.contains(file) && !have.holds(file, line)) text += line + "\n";
   }
   return text;
 }

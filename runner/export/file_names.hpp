@@ -22,6 +22,11 @@ std::vector<std::string> file_stems(const std::vector<Row>& rows);
 std::optional<std::string> index_without(const std::string& folder,
                                          const std::map<std::string, std::string>& taken);
 
+/// Files of `folder` that its index lists of packings whose files of the same ending are `written`
+/// now, file -> job, under another name.
+std::vector<std::string> superseded(const std::string& folder,
+                                    const std::map<std::string, std::string>& written);
+
 /// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
 /// those `written` now, file -> job, and of others with one of the endings that the present index
 /// lists. What that says of a packing which the rows name differently, as after a change of the

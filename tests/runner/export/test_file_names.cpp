@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "runner/export/file_names.hpp"
+#include "runner/store/files.hpp"
 #include "tests/runner/temporary_folder.hpp"
 
 namespace grainsweep {
@@ -99,6 +100,12 @@ TEST_CASE("a packing whose group has another number is listed once for an ending
         index_head + now + as_contacts + other);
   CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) ==
         index_head + as_contacts + as_table + other);
+  CHECK(superseded(folder.path(), {{"x_y__z-3-1.csv", "d"}}) ==
+        std::vector<std::string>{"x.y-7-1.csv"});
+  CHECK(superseded(folder.path(), {{"x.y-7-1.csv", "d"}}).empty());
+  CHECK(superseded(folder.path(), {}).empty());
+  remove_file(folder.path() + "/x.y-7-1.csv");
+  CHECK(superseded(folder.path(), {{"x_y__z-3-1.csv", "d"}}).empty());
 }
 
 }  // namespace
