@@ -180,6 +180,23 @@ std::string cluster_text(double wall_seconds, double grown_wall_seconds) {
   return wall_seconds < night ? "" : "On a cluster: " + called_as() + " slurm FILE --out DIR\n";
 }
 
+/// What all packings of a sweep take on the disk, bytes.
+DiskNeeds disk_needs_of(const std::vector<PlannedGroup>& groups) {
+  DiskNeeds all;
+  for (const PlannedGroup& group : groups) {
+    const DiskNeeds one = disk_needs(group.first->spec);
+    all.grains += static_cast<double>(group.packings) * one.grains;
+    all.curves += static_cast<double>(group.packings) * one.curves;
+  }
+  return all;
+}
+
+std::string disk_text(const DiskNeeds& needs) {
+  const auto text = [](double bytes) { return size_text(static_cast<std::size_t>(bytes)); };
+  return "On the disk: about " + text(needs.grains + needs.curves) + ", " + text(needs.curves) +
+         " of it with --no-grains\n";
+}
+
 std::string memory_text(double bytes) { return fixed(bytes / 1e6, 1) + " MB"; }
 
 /// Height to which beds probably settle, d; nothing for placed grains, which may be a few.
@@ -273,7 +290,8 @@ void print_text(const Sweep& sweep, const std::vector<Cost>& costs, std::size_t 
   const std::vector<PlannedGroup> groups = planned_groups(sweep, costs);
   std::cout << sweep.name << ": " << counted(sweep.jobs.size(), "packing") << ", "
             << counted(groups.size(), "parameter set") << "\n"
-            << groups_text(groups, names, sweep.units) << chosen_presets_text(sweep);
+            << groups_text(groups, names, sweep.units) << chosen_presets_text(sweep)
+            << disk_text(disk_needs_of(groups));
   if (left == 0) {
     std::cout << "Left: nothing, all of them are made\n"
               << cluster_text(needs.wall_seconds, grown_wall_seconds);
@@ -312,6 +330,7 @@ std::string job_json(const Job& job, const Cost& cost, std::optional<double> hei
 void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Left& left,
                 const std::vector<Cost>& most, int shards, int threads) {
   const Needs needs = needs_of(costs, threads);
+  const DiskNeeds disk = disk_needs_of(planned_groups(sweep, costs));
   nlohmann::ordered_json plan = {
       {"name", sweep.name},
       {"packings", costs.size()},
@@ -321,6 +340,8 @@ void print_json(const Sweep& sweep, const std::vector<Cost>& costs, const Left& 
       {"estimated_wall_seconds", needs.wall_seconds},
       {"estimated_bytes", needs.bytes},
       {"available_bytes", needs.memory},
+      {"estimated_disk_bytes", disk.grains + disk.curves},
+      {"estimated_disk_bytes_without_grains", disk.curves},
       {"left_packings", left.costs.size()},
       {"left_estimated_cpu_seconds", total_cpu_seconds(left.costs)},
       {"left_estimated_wall_seconds", needs_of(left.costs, threads).wall_seconds}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/cost.hpp"
+#include "engine/scene/spec.hpp"
 
 namespace grainsweep {
 
@@ -14,6 +15,16 @@ double total_cpu_seconds(const std::vector<Cost>& costs);
 
 /// Memory that the `live` largest of the costs take together, bytes.
 double bytes_of_largest(const std::vector<Cost>& costs, int live);
+
+/// Bytes that a packing will take on the disk.
+struct DiskNeeds {
+  double grains = 0.0;  ///< with their forces; none of it with --no-grains
+  double curves = 0.0;  ///< with its line in the journal
+};
+
+/// Estimate from the sizes of the records that are stored; it knows neither how high the bed will
+/// be nor how many contacts it will have, and is right within a fifth or so.
+DiskNeeds disk_needs(const PackingSpec& spec);
 
 /// The estimated CPU time of a packing and, if it is made, what it took, s.
 struct Known {
