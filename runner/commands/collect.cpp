@@ -351,6 +351,7 @@ int perform(const CollectOptions& options) {
   files.add(run);
   files.flush();
   sort_runs(collection.provenance.runs);
+  expect_no_foreign_files(options.out);
   collection.row_of.clear();
   const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());

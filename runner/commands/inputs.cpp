@@ -60,6 +60,23 @@ Sweep sweep_with_notes(const std::string& file) {
   return std::move(reading.sweep);
 }
 
+std::size_t place_of_job(const std::string& given, const std::vector<std::string>& ids,
+                         const std::string& where) {
+  const auto is_it = [&](const std::string& id) { return !given.empty() && id.starts_with(given); };
+  const auto same = std::find(ids.begin(), ids.end(), given);
+  if (same != ids.end()) return static_cast<std::size_t>(same - ids.begin());
+  const auto found = std::find_if(ids.begin(), ids.end(), is_it);
+  if (found == ids.end()) {
+    throw BadInput("--job " + given + ": no such packing; see the column job in " + where);
+  }
+  const auto other = std::find_if(found + 1, ids.end(), is_it);
+  if (other != ids.end()) {
+    throw BadInput("--job " + given + ": several packings begin so, " + *found + " and " + *other +
+                   "; give more of the id");
+  }
+  return static_cast<std::size_t>(found - ids.begin());
+}
+
 Results results_with_warnings(const std::string& folder, Detail detail) {
   Results results = read_results(folder, detail);
   const bool is_made = std::all_of(results.rows.begin(), results.rows.end(),

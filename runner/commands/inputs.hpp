@@ -1,7 +1,9 @@
 // What commands are given: a sweep file, or the output folder of a run.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "runner/commands/results.hpp"
 #include "runner/sweep/job.hpp"
@@ -15,6 +17,11 @@ Sweep sweep_or_refusal(const std::string& file);
 /// The same; also prints notes on what is never used in it and on beds that will probably be too
 /// low.
 Sweep sweep_with_notes(const std::string& file);
+
+/// The place in `ids` of the packing that is called `given`, its id or how that begins. Throws
+/// BadInput, which says that ids are found in `where`, unless it is one.
+std::size_t place_of_job(const std::string& given, const std::vector<std::string>& ids,
+                         const std::string& where);
 
 /// What is stored in the output folder; prints warnings about packings of another version, and
 /// about damage unless all packings and the end of the last run are there.

@@ -18,6 +18,7 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/claims.hpp"
 #include "runner/store/files.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/tables/component_profiles.hpp"
 #include "runner/tables/components.hpp"
@@ -195,6 +196,20 @@ void write_curve_tables(const std::string& folder, const Analysis& analysis,
 }  // namespace
 
 void expect_results(const std::string& folder) {
+void expect_no_foreign_files(const std::string& folder) {
+  if (has_results(folder) || file_exists(shards_folder(folder))) return;
+  std::string names;
+  const auto look = [&](const std::string& name) {
+    if (file_exists(folder + "/" + name)) names += (names.empty() ? "" : ", ") + name;
+  };
+  for (const char* name : tables) look(name);
+  for (const char* name : {"report.html", "comparison.csv"}) look(name);
+  if (names.empty()) return;
+  throw BadInput(folder + ": holds " + names +
+                 ", though it is no output folder of grainsweep, and would lose them; name another "
+                 "folder with --out, or move them away");
+}
+
   const std::string path = provenance_path(folder);
   if (!file_exists(path) || !has_checksum(read_file(path))) read_provenance(folder);
 }

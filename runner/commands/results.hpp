@@ -28,6 +28,10 @@ struct Results {
 /// The record of a sweep, which every output folder has.
 std::string provenance_path(const std::string& folder);
 
+/// Throws BadInput where `folder` is no output folder, but holds files of names that one has: they
+/// would be replaced.
+void expect_no_foreign_files(const std::string& folder);
+
 /// Throws BadInput unless `folder` has a provenance.json that is whole.
 void expect_results(const std::string& folder);
 

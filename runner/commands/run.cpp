@@ -1,5 +1,6 @@
 // The command `run`: sweep, its missing packings, making them, tables, report, exit code.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -20,6 +21,7 @@
 #include "runner/commands/shard_option.hpp"
 #include "runner/commands/shared_options.hpp"
 #include "runner/exit_codes.hpp"
+#include "runner/hash.hpp"
 #include "runner/instruction_set.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_groups.hpp"
@@ -31,6 +33,7 @@
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/store/runners.hpp"
 #include "runner/store/shard_files.hpp"
 #include "runner/sweep/costs.hpp"
 #include "runner/tables/closing_report.hpp"
@@ -58,6 +61,28 @@ void confirm_fresh(const RunOptions& options, const std::string& folder, const S
   std::string answer;
   std::getline(std::cin, answer);
   if (answer != "y" && answer != "yes") throw BadInput("nothing was deleted, nothing was run");
+}
+
+/// Refuses what must not go on in the folder. `form`: of the sweep, as in RunRecord. Throws
+/// BadInput at files of others, FolderBusy where a runner makes another form of the sweep: shards
+/// of two forms would make half of each.
+void expect_fitting_folder(const std::string& folder, const std::string& form) {
+  expect_no_foreign_files(folder);
+  for (const Runner& runner : runners_at_work(folder)) {
+    const bool is_told = !runner.run.form.empty() && runner.run.ended.empty();
+    if (!is_told || runner.run.form == form) continue;
+    throw FolderBusy(folder + ": another runner makes another form of this sweep here (" +
+                     owner_text(runner.run) +
+                     "), so that it was changed since; wait for it or give another folder with "
+                     "--out");
+  }
+}
+
+/// Hash of the packings of a sweep, and of its text where that says which of them are made.
+std::string form_of(const Sweep& whole, const std::string& text) {
+  std::uint64_t hash = fnv1a(grows(whole) ? text : "");
+  for (const Job& job : whole.jobs) hash = fnv1a(job.id, hash);
+  return hex16(hash);
 }
 
 /// The jobs of a shard.
@@ -156,8 +181,8 @@ Provenance provenance_of(const RunOptions& options, const Sweep& sweep) {
   return provenance;
 }
 
-/// The record of a run that begins now.
-RunRecord begun_run(const RunOptions& options, Isa isa) {
+/// The record of a run that begins now. `form`: of its sweep.
+RunRecord begun_run(const RunOptions& options, Isa isa, const std::string& form) {
   const int threads = options.threads > 0 ? options.threads : usable_cores();
   return {utc_now(),
           "",
@@ -170,7 +195,8 @@ RunRecord begun_run(const RunOptions& options, Isa isa) {
           host_name(),
           processor_name(),
           usable_cores(),
-          source_commit()};
+          source_commit(),
+          form};
 }
 
 /// The limit given on the command line, or the end of the Slurm job that this is part of. Throws
@@ -477,17 +503,18 @@ int perform(const RunOptions& options) {
   const Shard shard = shard_from_option(options.shard, std::getenv);
   const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
   const TimeLimit time_limit = time_limit_of(options);
+  const Provenance provenance = provenance_of(options, whole);
   confirm_fresh(options, folder, shard);
-  make_folder(folder);
   const double start = wall_seconds();
-  RunRecord run = begun_run(options, isa);
+  RunRecord run = begun_run(options, isa, form_of(whole, provenance.sweeps.front().text));
+  expect_fitting_folder(folder, run.form);
+  make_folder(folder);
   ShardFiles files(folder, shard, run);
   warn_without_lock(folder, files);
   if (files.is_locked() && shard.count == 1) clean_up(folder);
   if (options.fresh) files.remove_all(run), remove_tables(folder);
   watch_stop_signals();
 
-  const Provenance provenance = provenance_of(options, whole);
   const std::set<std::string> jobs = jobs_of(shard, whole);
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());

@@ -1,7 +1,6 @@
 #include "runner/jobs/helping.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -28,13 +27,6 @@ std::vector<std::size_t> free_of(const LeftToDo& shard) {
   return {shard.jobs.begin() + static_cast<std::ptrdiff_t>(begun), shard.jobs.end()};
 }
 
-std::vector<Runner> at_work(const std::string& folder,
-                            const std::map<std::string, RunRecord>& last_runs) {
-  std::vector<Runner> runners = runners_in(folder, last_runs);
-  std::erase_if(runners, [](const Runner& runner) { return runner.is_lost; });
-  return runners;
-}
-
 }  // namespace
 
 std::vector<std::size_t> jobs_to_take_over(const std::vector<LeftToDo>& shards,
@@ -54,12 +46,8 @@ std::vector<std::size_t> jobs_to_take_over(const std::vector<LeftToDo>& shards,
 
 Claims claims_in(const std::string& folder) {
   if (!has_claims(folder)) return {folder, process_name()};  // no journal has to be read for them
-  std::map<std::string, RunRecord> last_runs;
-  for (const std::string& shard : shards_in(folder)) {
-    if (auto run = last_run_in(journal_path(folder, shard))) last_runs[shard] = *std::move(run);
-  }
   std::set<std::string> processes;
-  for (const Runner& runner : at_work(folder, last_runs)) processes.insert(runner.run.process);
+  for (const Runner& runner : runners_at_work(folder)) processes.insert(runner.run.process);
   return {folder, process_name(), processes};
 }
 
@@ -97,7 +85,7 @@ std::vector<std::size_t> Helping::wanted(const Claims& claims) const {
   }
   if (!abandoned.empty()) return abandoned;
   std::vector<LeftToDo> shards;
-  for (const Runner& runner : at_work(folder_, stored.last_runs)) {
+  for (const Runner& runner : runners_at_work(folder_, stored.last_runs)) {
     const Shard shard = *shard_from_name(runner.shard);
     if (shard == own_ || shard.count != own_.count) continue;
     LeftToDo& left = shards.emplace_back();

@@ -10,10 +10,13 @@ namespace grainsweep {
 using nlohmann::json;
 
 void to_json(json& to, const RunRecord& run) {
-  to = {{"started", run.started},           {"ended", run.ended},     {"process", run.process},
-        {"wall_seconds", run.wall_seconds}, {"threads", run.threads}, {"isa", run.isa},
-        {"packings", run.packings},         {"command", run.command}, {"host", run.host},
-        {"processor", run.processor},       {"cores", run.cores},     {"commit", run.commit}};
+  to = {{"started", run.started},   {"ended", run.ended},
+        {"process", run.process},   {"wall_seconds", run.wall_seconds},
+        {"threads", run.threads},   {"isa", run.isa},
+        {"packings", run.packings}, {"command", run.command},
+        {"host", run.host},         {"processor", run.processor},
+        {"cores", run.cores},       {"commit", run.commit},
+        {"form", run.form}};
 }
 
 void from_json(const json& from, RunRecord& run) {
@@ -29,6 +32,7 @@ void from_json(const json& from, RunRecord& run) {
   from.at("processor").get_to(run.processor);
   from.at("cores").get_to(run.cores);
   from.at("commit").get_to(run.commit);
+  run.form = from.value("form", "");  // earlier versions did not tell
 }
 
 bool is_same_run(const RunRecord& a, const RunRecord& b) {

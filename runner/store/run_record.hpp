@@ -21,6 +21,7 @@ struct RunRecord {
   std::string processor;  ///< "AMD EPYC 7763 64-Core Processor"
   int cores = 0;          ///< that the process might use
   std::string commit;     ///< as in Build, of the program that ran
+  std::string form = {};  ///< hash of its sweep's packings: equal where shards make parts of one
 };
 
 void to_json(nlohmann::json& to, const RunRecord& run);

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "runner/machine.hpp"
+#include "runner/store/journal.hpp"
 #include "runner/store/lock.hpp"
 #include "runner/store/shard.hpp"
 
@@ -39,10 +40,23 @@ std::vector<Runner> runners_in(const std::string& folder,
   return runners;
 }
 
+std::vector<Runner> runners_at_work(const std::string& folder,
+                                    const std::map<std::string, RunRecord>& last_runs) {
+  std::vector<Runner> runners = runners_in(folder, last_runs);
+  std::erase_if(runners, [](const Runner& runner) { return runner.is_lost; });
+  return runners;
+}
+
+std::vector<Runner> runners_at_work(const std::string& folder) {
+  std::map<std::string, RunRecord> last_runs;
+  for (const std::string& shard : shards_in(folder)) {
+    if (auto run = last_run_in(journal_path(folder, shard))) last_runs[shard] = *std::move(run);
+  }
+  return runners_at_work(folder, last_runs);
+}
+
 bool is_worked_on(const std::string& folder, const std::map<std::string, RunRecord>& last_runs) {
-  const std::vector<Runner> runners = runners_in(folder, last_runs);
-  return std::any_of(runners.begin(), runners.end(),
-                     [](const Runner& runner) { return !runner.is_lost; });
+  return !runners_at_work(folder, last_runs).empty();
 }
 
 std::string owner_text(const std::optional<RunRecord>& run) {

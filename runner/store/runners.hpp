@@ -29,6 +29,11 @@ struct Runner {
 std::vector<Runner> runners_in(const std::string& folder,
                                const std::map<std::string, RunRecord>& last_runs);
 
+/// Those of them that are at work, by what the journals say of their last runs.
+std::vector<Runner> runners_at_work(const std::string& folder);
+std::vector<Runner> runners_at_work(const std::string& folder,
+                                    const std::map<std::string, RunRecord>& last_runs);
+
 /// Whether one of them is at work.
 bool is_worked_on(const std::string& folder, const std::map<std::string, RunRecord>& last_runs);
 

@@ -2,11 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "runner/commands/inputs.hpp"
 #include "runner/commands/results.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/checkpoints.hpp"
 #include "runner/store/files.hpp"
 #include "runner/store/journal.hpp"
+#include "runner/store/shard.hpp"
 #include "runner/store/states.hpp"
 #include "tests/runner/jobs/growing_sweeps.hpp"
 #include "tests/runner/sample_rows.hpp"
@@ -111,6 +113,29 @@ TEST_CASE("a summary counts what the whole results hold") {
   CHECK(summary.orphaned == whole.orphaned);
   CHECK(summary.damage.empty());
   CHECK(other_versions_warning(summary.rows, "").starts_with("warning: 1 of 3 packings"));
+}
+
+TEST_CASE("files of others are named, those of an output folder are its own") {
+  const TemporaryFolder folder;
+  CHECK_NOTHROW(expect_no_foreign_files(folder.path() + "/none"));
+  replace_file(folder.path() + "/notes.txt", "mine");
+  CHECK_NOTHROW(expect_no_foreign_files(folder.path()));
+  replace_file(folder.path() + "/groups.csv", "mine");
+  replace_file(folder.path() + "/comparison.csv", "mine");
+  CHECK_THROWS_WITH(expect_no_foreign_files(folder.path()),
+                    Catch::Contains(": holds groups.csv, comparison.csv, though it is no output"));
+  make_folder(shards_folder(folder.path()));
+  CHECK_NOTHROW(expect_no_foreign_files(folder.path()));
+}
+
+TEST_CASE("a packing is named by its id, or by what only it begins with") {
+  const std::vector<std::string> ids = {"ab1", "ab", "b2"};
+  CHECK(place_of_job("b", ids, "t") == 2);
+  CHECK(place_of_job("ab1", ids, "t") == 0);
+  CHECK(place_of_job("ab", ids, "t") == 1);
+  CHECK_THROWS_WITH(place_of_job("a", ids, "t"), Catch::Contains("several packings begin so"));
+  CHECK_THROWS_WITH(place_of_job("c", ids, "t"), Catch::EndsWith("see the column job in t"));
+  CHECK_THROWS_AS(place_of_job("", ids, "t"), BadInput);
 }
 
 TEST_CASE("a folder without results is refused, and so is a broken provenance") {

@@ -91,6 +91,19 @@ expect_text out.txt '"runners": [' '"host ' "process $runner (1-of-1)\""
 kill -CONT "$runner"
 end_runner TERM
 
+# Shards of two forms of a sweep would make half of each: the second one is refused.
+start "$program" run sweep.json --threads 1 --out forms --shard 1/2 --no-report
+wait_until has_packings forms 1 || fail "ended too soon: $(cat said.txt)"
+kill -STOP "$runner"
+sed 's/"replicates": *[0-9]*/"replicates": 2/' sweep.json >other.json
+expect_code 3 "$program" run other.json --threads 1 --out forms --shard 2/2
+expect_text error.txt "forms: another runner makes another form of this sweep here (host " "process $runner"
+kill -CONT "$runner"
+end_runner TERM
+code=0
+"$program" run other.json --threads 1 --out forms --shard 2/2 --quiet || code=$?
+[ "$code" -le 1 ] || fail "a shard of the new form ended with $code"
+
 # --fresh --yes starts anew.
 expect_code 0 "$program" status busy
 code=0

@@ -258,6 +258,16 @@ TEST_CASE("a torn line is told as left out, be it of a run or of a packing that 
   }
 }
 
+TEST_CASE("a run tells the form of its sweep, one of an earlier version does not") {
+  RunRecord run = sample_run();
+  run.form = "00ff";
+  const std::string line = journal_line(run);
+  CHECK(read_run_line(std::string_view(line).substr(0, line.size() - 1))->form == "00ff");
+  nlohmann::json earlier = run;
+  earlier.erase("form");
+  CHECK(earlier.get<RunRecord>().form.empty());
+}
+
 TEST_CASE("many lines that cannot be read are told in one, with their number") {
   const TemporaryFolder folder;
   const std::string path = first_journal(folder);

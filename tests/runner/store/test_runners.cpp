@@ -91,7 +91,9 @@ TEST_CASE("a runner of another machine is lost once it has long been silent") {
   REQUIRE(runners_now(folder).size() == 1);
   CHECK(runners_now(folder)[0].is_lost);
   CHECK(runners_now(folder)[0].silent >= lost_after_seconds);
+  CHECK(runners_at_work(folder.path()).empty());
   touch_journal(journal_path(folder.path(), "1-of-1"));
+  CHECK(runners_at_work(folder.path()).size() == 1);
   CHECK_FALSE(runners_now(folder)[0].is_lost);
 }
 
