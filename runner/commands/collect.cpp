@@ -49,6 +49,7 @@ struct Collection {
   Outcomes others;
   std::size_t added = 0, given_grains = 0, stored = 0;
   std::vector<BedFault> faults = {};  ///< of beds of the present source, which are left out
+  bool is_current_only = false;       ///< nothing is kept of other forms of a sweep
   bool is_short = false;              ///< something stored could not be read
 };
 
@@ -198,20 +199,27 @@ void add_outcome(const std::string& folder, Boxed<Outcome> outcome, Row& row, Co
 /// Keeps what a folder holds besides its sweep: packings of other forms of it, which may come
 /// again.
 void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) {
-  std::size_t kept = 0;
+  std::size_t kept = 0, left = 0;
   for (auto& [job, outcome] : outcomes) {
     if (const auto row = to.row_of.find(job); row != to.row_of.end()) {
       add_outcome(folder, std::move(outcome), to.rows[row->second], to);
       continue;
     }
-    if (outcome->exception) continue;
+    left += to.is_current_only ? 1 : 0;
+    if (outcome->exception || to.is_current_only) continue;
     Boxed<Outcome>& known = to.others[job];  // nothing, if it is new
     const bool is_better = !known || known->exception || brings_grains(*outcome, *known);
     kept += is_better && store(folder, std::move(outcome), known, to) ? 1 : 0;
   }
+  if (left > 0) {
+    to.display.clear();
+    std::cerr << "note: " << folder << ": " << counted(left, "packing")
+              << " of another form of its sweep left out\n";
+  }
   if (kept == 0) return;
   warn(folder + ": " + counted(kept, "packing") +
-           " of another form of its sweep: kept for a run of that, but in no table",
+           " of another form of its sweep: kept for a run of that, but in no table; --current "
+           "leaves them out",
        to);
 }
 
@@ -307,6 +315,7 @@ Collection collected(const CollectOptions& options, ShardFiles& files, ProgressD
     StoredSweep stored = read_stored_sweep(folder);
     if (!collection) {
       collection.emplace(begin_collection(options.out, files, display, own, stored.provenance));
+      collection->is_current_only = options.current;
     }
     warn_of(stored.damage, *collection);
     const std::size_t before = collection->added, given_before = collection->given_grains;
@@ -335,11 +344,14 @@ void add_command(CLI::App& app, CollectOptions& options) {
       ->required()
       ->check(not_empty())
       ->type_name("DIR");
+  collect.add_flag("--current", options.current,
+                   "leave out packings of other forms of the sweeps, which are in no table");
   collect.footer("Example: grainsweep collect out/node1 out/node2 --out out/all");
 }
 
 int perform(const CollectOptions& options) {
   expect_sources(options);
+  expect_no_foreign_files(options.out);
   make_folder(options.out);
   RunRecord run = begun_collection();
   ShardFiles files(options.out, {}, run);
@@ -351,7 +363,6 @@ int perform(const CollectOptions& options) {
   files.add(run);
   files.flush();
   sort_runs(collection.provenance.runs);
-  expect_no_foreign_files(options.out);
   collection.row_of.clear();
   const std::vector<Row>& rows = collection.rows;
   std::cerr << other_versions_warning(rows, program_version());

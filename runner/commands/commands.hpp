@@ -117,7 +117,8 @@ void add_command(CLI::App& app, StatusOptions& options);
 
 struct CollectOptions {
   std::vector<std::string> folders;
-  std::string out;  ///< folder they are merged into; may hold results, which stay
+  std::string out;       ///< folder they are merged into; may hold results, which stay
+  bool current = false;  ///< leave out what their sweeps do not ask for
 };
 /// Merges the results of several output folders, each packing once, and writes the tables.
 int perform(const CollectOptions& options);

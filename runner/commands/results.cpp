@@ -195,7 +195,6 @@ void write_curve_tables(const std::string& folder, const Analysis& analysis,
 
 }  // namespace
 
-void expect_results(const std::string& folder) {
 void expect_no_foreign_files(const std::string& folder) {
   if (has_results(folder) || file_exists(shards_folder(folder))) return;
   std::string names;
@@ -210,6 +209,7 @@ void expect_no_foreign_files(const std::string& folder) {
                  "folder with --out, or move them away");
 }
 
+void expect_results(const std::string& folder) {
   const std::string path = provenance_path(folder);
   if (!file_exists(path) || !has_checksum(read_file(path))) read_provenance(folder);
 }
@@ -244,6 +244,19 @@ Results read_called_for(GrowingSweep& growing, Provenance provenance, const std:
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows) {
   if (!is_recorded(folder, provenance, rows)) write_provenance(folder, provenance, rows);
+}
+
+bool lacks_grains(const Outcome& outcome) { return outcome.stored_bytes > 0 && !outcome.bed; }
+
+std::string grains_remedy(const std::string& sweep_file, const std::string& folder) {
+  return called_as() + " run " + (sweep_file.empty() ? "FILE" : shell_path(sweep_file)) +
+         " --out " + shell_path(folder) +
+         " --with-grains makes them again with grains, with --job ID one of them";
+}
+
+std::string others_remedy(const std::string& folder) {
+  return "; " + called_as() + " collect " + shell_path(folder) +
+         " --out OTHER --current leaves them behind";
 }
 
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,

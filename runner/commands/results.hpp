@@ -62,6 +62,15 @@ Results read_called_for(GrowingSweep& growing, Provenance provenance, const std:
 void record_sweep(const std::string& folder, const Provenance& provenance,
                   const std::vector<Row>& rows);
 
+/// Whether a packing is stored with its curves, but without its grains.
+bool lacks_grains(const Outcome& outcome);
+
+/// How to have the grains of packings that were stored without.
+std::string grains_remedy(const std::string& sweep_file, const std::string& folder);
+
+/// How to have a folder without packings that no table shows: "; grainsweep collect ...".
+std::string others_remedy(const std::string& folder);
+
 /// Whether the outcome's bed, if it has one, is stored whole; appends to `faults` why not.
 bool has_sound_bed(const std::string& folder, const Outcome& outcome,
                    std::vector<BedFault>& faults);

@@ -151,8 +151,8 @@ void print_status(const Standing& standing) {
             << (is_done ? "" : left_text(standing));
   if (results.orphaned > 0) {
     std::cout << counted(results.orphaned, "stored packing")
-              << (results.orphaned == 1 ? " belongs" : " belong")
-              << " to another form of the sweep\n";
+              << (results.orphaned == 1 ? " belongs" : " belong") << " to another form of the sweep"
+              << others_remedy(standing.folder) << "\n";
   }
   if (is_idle(standing) && !is_done && !sweep_file.empty()) {
     std::cout << "Go on with: " << called_as() << " run " << shell_path(sweep_file) << " --out "

@@ -176,6 +176,18 @@ TEST_CASE("what a folder holds of another form of its sweep is kept, once") {
   CHECK(read_bed(out, *stored.outcomes.at("b2")).grains.size() == 1);
 }
 
+TEST_CASE("with --current nothing is kept of another form of a sweep, unless it is asked for") {
+  const TemporaryFolder parent;
+  const std::string source = folder_of_a_run(parent, "source", "1", sample_outcome("a1", 0.6, 6));
+  Outcome earlier = sample_outcome("b2", 0.6, 6);
+  store_with_bed(source, earlier);
+  const std::string out = parent.path() + "/all";
+  const Printed printed = printed_by([&] { perform(CollectOptions{{source}, out, true}); });
+  CHECK_THAT(printed.error, Contains("source: 1 packing of another form of its sweep left out"));
+  CHECK(read_results(out).rows.size() == 1);
+  CHECK(read_results(out).orphaned == 0);
+}
+
 TEST_CASE("units are collected where the folders agree in them") {
   const TemporaryFolder parent;
   Outcome outcome = sample_outcome("a1", 0.6, 6);
