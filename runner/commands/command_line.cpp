@@ -60,7 +60,9 @@ std::string mistake(const CLI::App& app, const Words& words, const CLI::Error& e
   if (!found.empty()) return found;
   const bool has_more = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
   const bool has_two_folders = has_more && words[0] == "compare";
-  return std::string(error.what()) + (has_two_folders ? compared_with : "");
+  const bool has_ids = has_more && std::find(words.begin(), words.end(), "--job") != words.end();
+  return std::string(error.what()) + (has_two_folders ? compared_with : "") +
+         (has_ids ? "; of several ids each has its --job, or commas stand between them" : "");
 }
 
 constexpr std::size_t help_width = 80, help_names = 24;  // characters of lines, and of names

@@ -27,6 +27,8 @@ struct RunOptions {
   bool quiet = false;                ///< print errors and warnings only
   bool no_report = false;            ///< leave out report.html and its figures
   bool no_grains = false;            ///< store curves but no grains
+  bool with_grains = false;          ///< make again what is stored without grains
+  std::vector<std::string> jobs;     ///< ids, or how they begin; empty: all of the shard
   std::string shard;                 ///< as shard_from_option takes it
   bool alone = false;                ///< take over nothing from other shards
   std::string time_limit;            ///< "1:30:00"; empty: that of the Slurm job, if any
@@ -94,7 +96,7 @@ void add_command(CLI::App& app, CompareOptions& options);
 struct ExportOptions {
   std::string folder;
   std::string format = "csv";      ///< one of export_formats, or html
-  std::vector<std::string> jobs;   ///< ids; empty: all that are stored
+  std::vector<std::string> jobs;   ///< ids, or how they begin; empty: all that are stored
   std::string to;                  ///< folder for the files; empty: <folder>/export
   std::string contacts = "touch";  ///< for surfaces: touch, shrink:SHARE, cap:SHARE or bridge:SHARE
   bool in_units = false;           ///< for grains, surfaces and voxels: lengths in the sweep's unit

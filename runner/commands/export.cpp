@@ -59,16 +59,14 @@ bool has_bed(const Row& row) { return row.outcome && row.outcome->stored_bytes >
 std::vector<std::size_t> rows_to_export(const std::vector<Row>& rows,
                                         const ExportOptions& options) {
   std::vector<std::size_t> chosen;
+  std::vector<std::string> ids;
+  ids.reserve(rows.size());
+  for (const Row& row : rows) ids.push_back(row.job.id);
   for (const std::string& job : options.jobs) {
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.job.id == job; });
-    if (found == rows.end()) {
-      throw BadInput("--job " + job + ": no such packing; see the column job in " + options.folder +
-                     "/packings.csv");
-    }
-    if (!has_bed(*found))
-      throw BadInput("--job " + job + ": has no grains, it is " + status_words(*found));
-    chosen.push_back(static_cast<std::size_t>(found - rows.begin()));
+    const std::size_t k = place_of_job(job, ids, options.folder + "/packings.csv");
+    if (!has_bed(rows[k]))
+      throw BadInput("--job " + job + ": has no grains, it is " + status_words(rows[k]));
+    chosen.push_back(k);
   }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (options.jobs.empty() && has_bed(rows[k])) chosen.push_back(k);
@@ -176,7 +174,7 @@ struct Writing {
 /// What became of them.
 struct Written {
   std::map<std::string, std::string> jobs;  ///< by their files
-  std::size_t unsettled = 0, without_grains = 0;
+  std::size_t unsettled = 0;
   std::vector<BedFault> faults;
   std::vector<std::string> refused;  ///< why beds are left out that can be read
 };
@@ -196,10 +194,6 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
   } catch (const FileError& error) {
     written.faults.push_back(fault_of_bed(row.job.id, error));
     return std::string("left out: ") + error.what();
-  }
-  if (bed.grains.empty()) {
-    ++written.without_grains;
-    return "left out: stored without grains";
   }
   try {
     const std::size_t grains = bed.grains.size();
@@ -227,11 +221,7 @@ void add_command(CLI::App& app, ExportOptions& options) {
       ->transform(CLI::IsMember(format_names(), CLI::ignore_case))
       ->capture_default_str()
       ->type_name("NAME");
-  grains
-      .add_option("--job", options.jobs,
-                  "only this packing: its id in packings.csv; may be repeated")
-      ->type_name("ID")
-      ->allow_extra_args(false);
+  add_jobs(grains, options.jobs, "only these packings: ids in packings.csv, or how they begin");
   grains
       .add_option("--contacts", options.contacts,
                   "of stl and obj: touch, shrink:SHARE (of all lengths),\n"
@@ -264,9 +254,16 @@ int perform(const ExportOptions& options) {
   const Results results = results_with_warnings(options.folder);
   const ExportSettings settings = settings_of(options, results.provenance.units);
   const std::vector<Row>& rows = results.rows;
-  const std::vector<std::size_t> chosen = rows_to_export(rows, options);
+  std::vector<std::size_t> chosen = rows_to_export(rows, options);
   const std::string to = options.to.empty() ? options.folder + "/export" : options.to;
   if (chosen.empty()) throw BadInput(options.folder + ": holds no finished packing to export");
+  const std::size_t without_grains =
+      std::erase_if(chosen, [&](std::size_t k) { return lacks_grains(*rows[k].outcome); });
+  const std::string remedy = grains_remedy(sweep_file_of(results.provenance), options.folder);
+  if (chosen.empty()) {
+    throw BadInput(options.folder + ": " + counted(without_grains, "packing") +
+                   " to export, stored without grains; " + remedy);
+  }
   const auto is_periodic = [&](std::size_t k) {
     return std::isfinite(shortest_period(rows[k].job.box));
   };
@@ -297,6 +294,12 @@ int perform(const ExportOptions& options) {
   if (written.jobs.empty() && !written.refused.empty()) throw BadInput(written.refused.front());
   const std::vector<std::string> old = superseded(to, written.jobs);
   replace_file(to + "/index.csv", index_csv(to, rows, endings(), written.jobs));
+  for (const std::string& file : old) remove_file(to + "/" + file);
+  if (!old.empty()) {
+    std::cerr << "note: " << counted(old.size(), "file")
+              << " of an earlier export removed, as the same packings have other names now: "
+              << old.front() << (old.size() > 1 ? ", ..." : "") << "\n";
+  }
   if (index) {
     std::cerr << "note: files of an earlier export were replaced by those of other packings, whose "
                  "groups have their numbers now: see index.csv\n";
@@ -317,8 +320,9 @@ int perform(const ExportOptions& options) {
               << " left out: " << written.refused.front()
               << (written.refused.size() > 1 ? ", and others" : "") << "\n";
   }
-  if (written.without_grains > 0) {
-    std::cout << counted(written.without_grains, "packing") << " left out: stored without grains\n";
+  if (without_grains > 0) {
+    std::cout << counted(without_grains, "packing") << " left out: stored without grains; "
+              << remedy << "\n";
   }
   if (!written.faults.empty()) return exit_file_system;
   return written.refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;

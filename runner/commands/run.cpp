@@ -85,10 +85,20 @@ std::string form_of(const Sweep& whole, const std::string& text) {
   return hex16(hash);
 }
 
-/// The jobs of a shard.
-std::set<std::string> jobs_of(const Shard& shard, const Sweep& whole) {
-  const std::vector<int> shard_of = shards_of(whole, shard.count);
+/// The jobs of a shard, or those that were asked for. Throws BadInput.
+std::set<std::string> jobs_of(const Shard& shard, const Sweep& whole,
+                              const std::vector<std::string>& asked) {
   std::set<std::string> jobs;
+  if (!asked.empty()) {
+    std::vector<std::string> ids;
+    ids.reserve(whole.jobs.size());
+    for (const Job& job : whole.jobs) ids.push_back(job.id);
+    for (const std::string& job : asked) {
+      jobs.insert(ids[place_of_job(job, ids, "packings.csv or in plan --json")]);
+    }
+    return jobs;
+  }
+  const std::vector<int> shard_of = shards_of(whole, shard.count);
   for (std::size_t i = 0; i < shard_of.size(); ++i) {
     if (shard_of[i] == shard.number) jobs.insert(whole.jobs[i].id);
   }
@@ -109,9 +119,14 @@ Outcomes made_for_growth(const std::string& folder, const Sweep& whole) {
   return grows(whole) ? read_journals(folder, Detail::whole).outcomes : Outcomes();
 }
 
-/// A packing that ended in an exception is always tried again.
-bool is_to_be_made(const Outcome& outcome, bool retry_failed) {
-  return outcome.exception || (retry_failed && outcome.result.status == PackingStatus::failed);
+/// Which stored packings are made again, besides those that ended in an exception.
+struct Again {
+  bool failed = false, without_grains = false;
+};
+
+bool is_to_be_made(const Outcome& outcome, const Again& again) {
+  return outcome.exception || (again.without_grains && lacks_grains(outcome)) ||
+         (again.failed && outcome.result.status == PackingStatus::failed);
 }
 
 /// The damage that this runner is to mend: all, or what its own journal has lost.
@@ -124,7 +139,7 @@ void keep_own(std::vector<std::string>& damage, const Shard& shard, const std::s
 /// its checkpoints: they are then removed. Warns of damage. With a signal to stop it ends at once,
 /// at a packing that may have been made.
 RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, const Shard& shard,
-                    const std::string& folder, ShardFiles& files, bool retry_failed) {
+                    const std::string& folder, ShardFiles& files, const Again& again) {
   RunningSweep running{folder, files, 0, {}, {}};
   if (shard.count > 1) running.claims = claims_in(folder);
   // Read whole, as the tables will: a packing whose line they could not read is made again.
@@ -140,8 +155,7 @@ RunningSweep resume(const Sweep& sweep, const std::vector<std::size_t>& places, 
       return running;
     }
     const auto known = stored.outcomes.find(job.id);
-    const bool is_done = known != stored.outcomes.end() &&
-                         !is_to_be_made(*known->second, retry_failed) &&
+    const bool is_done = known != stored.outcomes.end() && !is_to_be_made(*known->second, again) &&
                          has_sound_bed(folder, *known->second, faults);
     if (is_done) {
       done.insert(job.id);
@@ -394,7 +408,16 @@ void write_results(Results& results, const RunOptions& options, const std::strin
   if (results.orphaned > 0 && !options.quiet) {
     std::cerr << "note: " << counted(results.orphaned, "stored packing")
               << (results.orphaned == 1 ? " is" : " are")
-              << " of another sweep or of another form of this one: kept, but in no table\n";
+              << " of another sweep or of another form of this one: kept, but in no table"
+              << others_remedy(folder) << "\n";
+  }
+  const auto without_grains =
+      std::count_if(results.rows.begin(), results.rows.end(),
+                    [](const Row& row) { return row.outcome && lacks_grains(*row.outcome); });
+  if (without_grains > 0 && !options.no_grains && !options.quiet) {
+    std::cerr << "note: " << counted(static_cast<std::size_t>(without_grains), "packing")
+              << (without_grains == 1 ? " is" : " are") << " stored without grains; "
+              << grains_remedy(options.file, folder) << "\n";
   }
   const Analysis analysis = analyse(results.rows, folder);
   write_tables(folder, results.provenance, results.rows, analysis);
@@ -469,7 +492,8 @@ void add_command(CLI::App& app, RunOptions& options) {
       ->check(number_within(0.0, 86400.0))
       ->capture_default_str()
       ->type_name("S");
-  run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
+  auto* fresh =
+      run.add_flag("--fresh", options.fresh, "delete what is stored in the folder and start anew");
   run.add_flag("--yes", options.yes, "do not ask before --fresh deletes");
   run.add_flag("--retry-failed", options.retry_failed,
                "make failed packings again, after the others, as with a new version");
@@ -477,12 +501,20 @@ void add_command(CLI::App& app, RunOptions& options) {
                "stop at the first packing that fails; without it the others go on");
   run.add_flag("--quiet", options.quiet, "print warnings and errors only");
   run.add_flag("--no-report", options.no_report, "leave out the page report.html and its figures");
-  run.add_flag("--no-grains", options.no_grains,
-               "store curves but no grains: beds cannot be shown or exported");
+  auto* no_grains = run.add_flag("--no-grains", options.no_grains,
+                                 "store curves but no grains: beds cannot be shown or exported");
+  run.add_flag("--with-grains", options.with_grains,
+               "make again, to the same bits, what is stored without grains")
+      ->excludes(no_grains);
+  auto* jobs = add_jobs(run, options.jobs,
+                        "make only these packings: ids in packings.csv or plan --json,\n"
+                        "or how they begin");
   auto* shard = run.add_option("--shard", options.shard,
                                "make one part of N in a shared folder: I/N, auto, or auto/N")
                     ->check(not_empty())
-                    ->type_name("I/N");
+                    ->type_name("I/N")
+                    ->excludes(jobs);
+  fresh->excludes(jobs);  // it would delete the others
   run.add_flag("--alone", options.alone,
                "end with the shard, without taking over what others have not begun")
       ->needs(shard);
@@ -504,6 +536,7 @@ int perform(const RunOptions& options) {
   const std::string folder = options.out.empty() ? "out/" + whole.name : options.out;
   const TimeLimit time_limit = time_limit_of(options);
   const Provenance provenance = provenance_of(options, whole);
+  const std::set<std::string> jobs = jobs_of(shard, whole, options.jobs);
   confirm_fresh(options, folder, shard);
   const double start = wall_seconds();
   RunRecord run = begun_run(options, isa, form_of(whole, provenance.sweeps.front().text));
@@ -515,7 +548,6 @@ int perform(const RunOptions& options) {
   if (options.fresh) files.remove_all(run), remove_tables(folder);
   watch_stop_signals();
 
-  const std::set<std::string> jobs = jobs_of(shard, whole);
   const auto made = [&] { return made_for_growth(folder, whole); };
   GrowingSweep growing(whole, made());
   bool retries = false;
@@ -531,7 +563,8 @@ int perform(const RunOptions& options) {
     record_sweep(folder, provenance, rows_of(sweep));
     const bool retry = std::exchange(retries, false);
     const auto left = [&] {
-      return resume(sweep, places_of(jobs, sweep), shard, folder, files, retry);
+      return resume(sweep, places_of(jobs, sweep), shard, folder, files,
+                    {retry, options.with_grains});
     };
     return make_left(left, shard.count == 1 && !options.no_grains && !retry, make);
   };

@@ -8,6 +8,15 @@
 
 namespace grainsweep {
 
+CLI::Option* add_jobs(CLI::App& command, std::vector<std::string>& jobs,
+                      const std::string& meaning) {
+  return command.add_option("--job", jobs, meaning)
+      ->type_name("ID")
+      ->option_text("ID[,ID...]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "packings at once (default: one per core)")
       ->check(CLI::Range(1, 1024))

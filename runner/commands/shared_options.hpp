@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): as CLI11 calls it
 class App;
+class Option;
 class Validator;
 }  // namespace CLI
 
@@ -25,6 +27,10 @@ void add_folder(CLI::App& command, std::string& folder);
 
 /// For the name of a folder, which may be left out but not be empty, as an unset variable makes it.
 CLI::Validator not_empty();
+
+/// Packings by their ids, or how these begin: of several options, and with commas in one.
+CLI::Option* add_jobs(CLI::App& command, std::vector<std::string>& jobs,
+                      const std::string& meaning);
 
 /// How many packings are made at once; stays 0 if it is not given.
 void add_threads(CLI::App& command, int& threads);

@@ -103,6 +103,8 @@ TEST_CASE("every command is understood") {
       read({"export", "--job", "a", "--job", "b", "o", "--format", "vtp", "--to", "t"}));
   CHECK(grains.folder == "o");
   CHECK(grains.jobs == std::vector<std::string>{"a", "b"});
+  CHECK(options_of<RunOptions>(read({"run", "--job", "a,b", "s.json", "--job", "c"})).jobs ==
+        std::vector<std::string>{"a", "b", "c"});
   CHECK(grains.format == "vtp");
   CHECK(grains.to == "t");
 }

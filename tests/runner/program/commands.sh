@@ -143,7 +143,58 @@ for table in profiles decays distributions; do
   cmp "out/small/$table.csv" "bare/$table.csv" || fail "without grains there are other $table"
 done
 expect_code 2 "$program" export bare
-expect_text error.txt "bare: its packings were stored without grains"
+expect_text error.txt "bare: 10 packings to export, stored without grains; " " --with-grains makes them again"
+expect_code 2 "$program" export bare --job "$(sed -n 2p bare/packings.csv | cut -c1-16)"
+expect_text error.txt "bare: 1 packing to export, stored without grains"
+
+# One packing alone is that of the whole sweep, bit by bit; so are those made again with grains.
+job=$(sed -n 3p out/small/packings.csv | cut -d, -f1)
+"$program" run small.json --out alone --no-report --job "${job:0:8}" >out.txt 2>error.txt || [ $? -eq 1 ]
+cmp <(values_of alone | grep "^$job") <(values_of out/small | grep "^$job") || fail "--job makes another packing"
+[ "$(packing_lines alone | wc -l)" -eq 1 ] || fail "--job made others"
+cmp <(beds_in alone) <(beds_in out/small | grep "^$job") || fail "--job makes another bed"
+expect_code 2 "$program" run small.json --out alone --job nosuchjob
+expect_text error.txt "--job nosuchjob: no such packing"
+expect_code 2 "$program" run small.json --out alone --job "$job" --fresh --yes
+expect_code 2 "$program" run small.json --out alone --job "$job" --shard 1/2
+"$program" run small.json --out bare --no-report >out.txt 2>error.txt || [ $? -eq 1 ]
+expect_text error.txt "note: 10 packings are stored without grains; " "run small.json --out bare --with-grains"
+"$program" run small.json --out bare --no-report --with-grains --job "$job" >out.txt 2>error.txt || [ $? -eq 1 ]
+expect_text error.txt "note: 9 packings are stored without grains"
+expect_code 0 "$program" export bare --format xyz
+expect_text out.txt "1 packing written" "9 packings left out: stored without grains; " "--with-grains"
+[ "$(wc -l <error.txt)" -eq 1 ] || fail "a line for each packing without grains: $(cat error.txt)"
+"$program" run small.json --out bare --no-report --with-grains --quiet || [ $? -eq 1 ]
+cmp <(beds_in bare) <(beds_in out/small) || fail "--with-grains makes other beds"
+cmp <(values_of bare) <(values_of out/small) || fail "--with-grains makes other values"
+
+# What the plan says of the disk is about what the beds take.
+planned=$(sed -n 's/.*"estimated_disk_bytes": \([0-9]*\).*/\1/p' plan.json)
+taken=$(cat out/small/shards/*.beds out/small/shards/*.jsonl | wc -c)
+((planned > taken * 3 / 4 && planned < taken * 4 / 3)) || fail "$planned bytes planned, $taken taken"
+expect_code 0 "$program" plan small.json
+expect_text out.txt "On the disk: about " " of it with --no-grains"
+
+# Files of others are not replaced.
+mkdir foreign && echo mine | tee foreign/packings.csv >foreign/report.html
+for command in "run small.json" "collect out/small"; do
+  expect_code 2 "$program" $command --out foreign
+  expect_text error.txt "foreign: holds packings.csv, report.html, though it is no output folder"
+done
+[ "$(ls foreign | wc -l) $(cat foreign/packings.csv)" = "2 mine" ] || fail "files of others were touched"
+
+# Off a cluster the scripts are printed if the options decide.
+expect_code 0 env PATH="$here/no-programs" "$program" slurm small.json --print --shards 4 --threads 8
+expect_text out.txt "#SBATCH --array=1-4" "#SBATCH --cpus-per-task=8"
+expect_text error.txt "note: no cluster answers here: --shards and --threads decide"
+if grep -q -e --partition -e --mem out.txt; then fail "the script asks for what no option says"; fi
+expect_code 2 env PATH="$here/no-programs" "$program" slurm small.json --print
+expect_text error.txt "sinfo: not found; " "give --shards and --threads"
+mkdir asleep && printf '#!/bin/sh\necho sinfo: error: no controller; exit 1\n' >asleep/sinfo && chmod +x asleep/sinfo
+expect_code 2 env PATH="$here/asleep" "$program" slurm small.json
+expect_text error.txt "no controller" "no cluster answers; call this where jobs of Slurm are submitted"
+expect_code 2 "$program" compare out/small --with missing.json
+expect_text error.txt "missing.json: cannot open"
 
 for format in csv xyz vtp contacts contacts-vtp; do
   expect_code 0 "$program" export out/small --format $format
@@ -160,6 +211,8 @@ expect_code 0 "$program" export out/small --format xyz --job "$job" --to one
 file=$(sed -n "2s/,$job,.*//p" one/index.csv)
 [ "$(ls one)" = "$(printf '%s\n' index.csv "$file")" ] || fail "--job wrote $(ls one)"
 [ "$(head -n 1 "one/$file")" -eq "$grains" ] || fail "wrong number of grains"
+expect_code 0 "$program" export out/small --job "$job,$(sed -n 3p out/small/packings.csv | cut -c1-12)" --to two
+[ "$(ls two/*.csv | wc -l)" -eq 3 ] || fail "--job A,B wrote $(ls two)"
 expect_code 2 "$program" export out/small --job nosuchjob
 expect_text error.txt "nosuchjob"
 
