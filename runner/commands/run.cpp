@@ -65,12 +65,13 @@ void confirm_fresh(const RunOptions& options, const std::string& folder, const S
 
 /// Refuses what must not go on in the folder. `form`: of the sweep, as in RunRecord. Throws
 /// BadInput at files of others, FolderBusy where a runner makes another form of the sweep: shards
-/// of two forms would make half of each.
-void expect_fitting_folder(const std::string& folder, const std::string& form) {
+/// of two forms would make half of each. Whether one works on this shard its lock tells.
+void expect_fitting_folder(const std::string& folder, const Shard& shard, const std::string& form) {
   expect_no_foreign_files(folder);
   for (const Runner& runner : runners_at_work(folder)) {
     const bool is_told = !runner.run.form.empty() && runner.run.ended.empty();
-    if (!is_told || runner.run.form == form) continue;
+    const bool is_of_others = shard_from_name(runner.shard) != shard;
+    if (!is_told || !is_of_others || runner.run.form == form) continue;
     throw FolderBusy(folder + ": another runner makes another form of this sweep here (" +
                      owner_text(runner.run) +
                      "), so that it was changed since; wait for it or give another folder with "
@@ -540,7 +541,7 @@ int perform(const RunOptions& options) {
   confirm_fresh(options, folder, shard);
   const double start = wall_seconds();
   RunRecord run = begun_run(options, isa, form_of(whole, provenance.sweeps.front().text));
-  expect_fitting_folder(folder, run.form);
+  expect_fitting_folder(folder, shard, run.form);
   make_folder(folder);
   ShardFiles files(folder, shard, run);
   warn_without_lock(folder, files);
