@@ -332,8 +332,8 @@ std::optional<Packing> measured_again(const PackingSpec& spec, const Kernels& ke
   std::optional<Bed<Kind>> bed = start<Kind>(spec);
   if (!bed || !lay_as(made, *bed) || !turn_as(made, *bed)) return std::nullopt;
   Packing packing;
-  static_cast<SettledPart&>(packing.result) = made.result;
-  static_cast<BedForces&>(packing) = made;
+  static_cast<SettledPart&>(packing.result) = static_cast<const SettledPart&>(made.result);
+  static_cast<BedForces&>(packing) = static_cast<const BedForces&>(made);
   std::vector<double> force;
   force.reserve(made.grains.size());
   for (const SettledGrain& grain : made.grains) force.push_back(grain.force);

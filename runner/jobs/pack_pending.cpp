@@ -48,7 +48,7 @@ StoredBed bed_of(const Job& job, const PackingResult& result, Packing&& packing,
   bed.job = job.id;
   bed.state_hash = result.state_hash;
   bed.box = job.spec.box;
-  bed.curves = result;
+  bed.curves = static_cast<const Curves&>(result);
   if (!no_grains) static_cast<SettledBed&>(bed) = static_cast<SettledBed&&>(packing);
   return bed;
 }
