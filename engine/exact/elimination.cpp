@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t few_grains = 12;  // not worth a plane
 
-class Dissection {
+class TreeDissection {
  public:
-  Dissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& pairs)
+  TreeDissection(std::span<const Record<double>> centres, const std::vector<GrainPair>& pairs)
       : centres_(centres), part_(centres.size(), 0), number_(centres.size(), none) {
     const auto visit_partners = [&](const auto& put) {
       for (const GrainPair pair : pairs) put(pair.a, pair.b), put(pair.b, pair.a);
@@ -172,7 +172,7 @@ class Dissection {
 
 EliminationTree dissect(std::span<const Record<double>> centres,
                         const std::vector<GrainPair>& pairs) {
-  return Dissection(centres, pairs).take_tree();
+  return TreeDissection(centres, pairs).take_tree();
 }
 
 }  // namespace grainsweep

@@ -177,7 +177,7 @@ double triangle_area(const Point& p, const Point& q, double radius) {
 }
 
 /// A grain's vertices, from the axis of the cylinder and in the box's frame.
-using Corners = std::vector<Vector>;
+using Vertices = std::vector<Vector>;
 
 /// A corner of a section, and a number that grows with its angle about the section's middle.
 struct Ranked {
@@ -185,14 +185,16 @@ struct Ranked {
   double rank;
 };
 
-/// Grows with the angle of a vector from -pi to pi, from -2 to 2.
+/// Grows with the angle of a vector from -pi to pi, from -2 to 2; 0 of none.
 double rank_of(const Point& v) {
-  const double along = v.x / (std::abs(v.x) + std::abs(v.y));
+  const double size = std::abs(v.x) + std::abs(v.y);
+  if (size == 0.0) return 0.0;
+  const double along = v.x / size;
   return v.y < 0.0 ? along - 1.0 : 1.0 - along;
 }
 
 /// The convex polygon in which a horizontal plane cuts a grain, counter-clockwise.
-void cut_section(const ConvexShape& shape, const Corners& corners, double z,
+void cut_section(const ConvexShape& shape, const Vertices& corners, double z,
                  std::vector<Ranked>& polygon) {
   polygon.clear();
   Point middle{0.0, 0.0};
@@ -224,7 +226,7 @@ double area_in(const std::vector<Ranked>& section, double tube) {
 
 /// Heights of the vertices between two others, and these, in order: between them sections have the
 /// same corners.
-std::vector<double> form_heights(const Corners& corners, double low, double high) {
+std::vector<double> form_heights(const Vertices& corners, double low, double high) {
   std::vector<double> heights = {low, high};
   for (const Vector& corner : corners) {
     if (corner.z() > low && corner.z() < high) heights.push_back(corner.z());
@@ -245,7 +247,7 @@ double polyhedron_tube_volume(const ConvexShape& shape, const Pose& pose, double
                               high - pose.centre.z());
   }
   if (from_axis + reach <= tube) return slab_volume(shape, pose, 2, low, high);
-  Corners corners;
+  Vertices corners;
   Span upright{pose.centre.z(), pose.centre.z()};
   for (const Vector& vertex : shape.vertices) {
     const Vector corner = pose.place(vertex);

@@ -14,8 +14,8 @@ namespace grainsweep {
 
 namespace {
 
-/// Side of the region along one axis.
-struct Side {
+/// Extent of the region along one axis.
+struct Extent {
   double length;
   bool is_periodic;
 
@@ -25,7 +25,7 @@ struct Side {
 /// The centres in the slab, by height, and their region.
 struct Region {
   std::vector<Record<double>> centres;
-  std::array<Side, 3> sides{};
+  std::array<Extent, 3> sides{};
   double disc_radius = 0.0;  ///< in a tube: how far from the axis centres reach, d
 
   double volume() const {
@@ -53,9 +53,9 @@ Region region_of(const Grains& bed, const Slab& slab) {
   std::stable_sort(region.centres.begin(), region.centres.end(),
                    [](const Record<double>& a, const Record<double>& b) { return a.z < b.z; });
   const double x = bed.box.period_x(), y = bed.box.period_y();
-  region.sides = {Side{x > 0.0 ? x : spread_of(region.centres, &Record<double>::x), x > 0.0},
-                  Side{y > 0.0 ? y : spread_of(region.centres, &Record<double>::y), y > 0.0},
-                  Side{slab.height(), false}};
+  region.sides = {Extent{x > 0.0 ? x : spread_of(region.centres, &Record<double>::x), x > 0.0},
+                  Extent{y > 0.0 ? y : spread_of(region.centres, &Record<double>::y), y > 0.0},
+                  Extent{slab.height(), false}};
   for (const Record<double>& p : region.centres) {
     const double from_axis = std::hypot(p.x - bed.box.length / 2.0, p.y - bed.box.width / 2.0);
     if (bed.box.is_tube) region.disc_radius = std::max(region.disc_radius, from_axis);
@@ -66,17 +66,17 @@ Region region_of(const Grains& bed, const Slab& slab) {
 double reach_of(const Region& region) {
   if (region.disc_radius > 0.0) return region.sides[2].length;
   double reach = std::numeric_limits<double>::max();
-  for (const Side& side : region.sides) {
+  for (const Extent& side : region.sides) {
     reach = std::min(reach, side.is_periodic ? side.length / 2.0 : side.length);
   }
   return reach;
 }
 
 /// Coefficients of 1, r, r^2, r^3 of the direction mean of the product of (E_i - r |u_i|).
-std::array<double, 4> covariance_of(const std::array<Side, 3>& sides) {
+std::array<double, 4> covariance_of(const std::array<Extent, 3>& sides) {
   constexpr std::array<double, 4> mean = {1.0, -1.0 / 2.0, 2.0 / (3.0 * pi), -1.0 / (4.0 * pi)};
   std::array<double, 4> sums = {1.0, 0.0, 0.0, 0.0};  // elementary symmetric in 1 and E
-  for (const Side& side : sides) {
+  for (const Extent& side : sides) {
     for (std::size_t k = 4; k-- > 0;) {
       const double shorter = !side.is_periodic && k > 0 ? sums[k - 1] : 0.0;
       sums[k] = sums[k] * side.length + shorter;
@@ -133,7 +133,7 @@ std::size_t columns_across(double length, double reach) {
 }
 
 /// Column of coordinate `x`, which begins at `low` or is periodic.
-std::size_t column_of(double x, double low, const Side& side, std::size_t count) {
+std::size_t column_of(double x, double low, const Extent& side, std::size_t count) {
   if (count == 1) return 0;  // of no length, too
   const double turns = (x - low) / side.length;
   const double place = side.is_periodic ? turns - std::floor(turns) : turns;
@@ -142,7 +142,7 @@ std::size_t column_of(double x, double low, const Side& side, std::size_t count)
 
 Columns columns_of(const Region& region, double reach) {
   Columns columns;
-  const Side &x = region.sides[0], &y = region.sides[1];
+  const Extent &x = region.sides[0], &y = region.sides[1];
   columns.count = {columns_across(x.length, reach), columns_across(y.length, reach)};
   columns.centres.resize(columns.count[0] * columns.count[1]);
   const double low_x = std::ranges::min(region.centres, {}, &Record<double>::x).x;

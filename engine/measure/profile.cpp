@@ -253,8 +253,9 @@ double highest_point(const Bed<Kind>& bed) {
 }
 
 template <class Kind, class Gather>
-typename Gather::Gathered across(const Bed<Kind>& bed, const Touching& touching, const Slab& slab,
-                                 const ProfileSettings& settings, int axis, Gather gather) {
+typename Gather::Gathered gathered_across(const Bed<Kind>& bed, const Touching& touching,
+                                          const Slab& slab, const ProfileSettings& settings,
+                                          int axis, Gather gather) {
   const Box& box = bed.box;
   const double width = axis == 0 ? box.length : box.width;
   const double other = axis == 0 ? box.width : box.length;
@@ -365,9 +366,9 @@ typename Gather::Gathered along(ProfileAxis axis, const Bed<Kind>& bed, const To
                                 const Slab& slab, const ProfileSettings& settings, Gather gather) {
   switch (axis) {
     case ProfileAxis::x:
-      return across(bed, touching, slab, settings, 0, gather);
+      return gathered_across(bed, touching, slab, settings, 0, gather);
     case ProfileAxis::y:
-      return across(bed, touching, slab, settings, 1, gather);
+      return gathered_across(bed, touching, slab, settings, 1, gather);
     case ProfileAxis::from_walls:
       return from_walls(bed, touching, slab, settings, gather);
     case ProfileAxis::z:

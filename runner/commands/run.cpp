@@ -258,7 +258,7 @@ struct Made {
   bool is_whole = false;  ///< whether all that was called for was made
 };
 
-Packed joined(const Packed& before, const Packed& now) {
+Packed sum_of(const Packed& before, const Packed& now) {
   return {before.packings + now.packings, before.left_to_others + now.left_to_others,
           now.first_failure};
 }
@@ -280,7 +280,7 @@ Made make_left(const std::function<RunningSweep()>& left, bool each_bed_once,
   if (!has_others || !first.is_whole) return first;
   RunningSweep others = left();
   const Made rest = made_of(others, make);
-  return {joined(first.packed, rest.packed), rest.is_whole};
+  return {sum_of(first.packed, rest.packed), rest.is_whole};
 }
 
 /// Makes what is called for, then what its results, `made`, call for, and so on.
@@ -289,7 +289,7 @@ Made make_all(GrowingSweep& growing, const std::function<Outcomes()>& made,
   Made all = make(growing.now());
   while (all.is_whole && growing.grow(made())) {
     const Made more = make(growing.now());
-    all = {joined(all.packed, more.packed), more.is_whole};
+    all = {sum_of(all.packed, more.packed), more.is_whole};
   }
   return all;
 }
@@ -314,7 +314,7 @@ Made help(const Sweep& sweep, const Shard& shard, const std::string& folder, Sha
     const Outcomes stored = read_journals(folder, Detail::whole).outcomes;
     running.beds = known_beds(folder, stored, running.pending);
     const Packed now = make(running);
-    all.packed = joined(all.packed, now);
+    all.packed = sum_of(all.packed, now);
     all.is_whole = !was_stopped(now);
     const auto made = static_cast<std::size_t>(now.packings);
     if (!all.is_whole || made < running.pending.size()) return all;  // or there is no time for more
@@ -575,11 +575,11 @@ int perform(const RunOptions& options) {
     const Made again = make_all(growing, made, make_pending);
     const bool lacks_time = !again.is_whole && !was_stopped(again.packed);
     if (lacks_time) std::cerr << "note: no time was left to make all failed packings again\n";
-    own = {joined(own.packed, again.packed), again.is_whole || lacks_time};
+    own = {sum_of(own.packed, again.packed), again.is_whole || lacks_time};
   }
   if (own.is_whole && shard.count > 1 && !options.alone && !grows(whole)) {
     const Made more = help(whole, shard, folder, files, options.quiet, make);
-    own = {joined(own.packed, more.packed), more.is_whole};
+    own = {sum_of(own.packed, more.packed), more.is_whole};
   }
   const auto& [packed, is_whole] = own;
   const auto extent = extent_at_end(growing.now().jobs.size(), is_in_haste(own, time_limit));

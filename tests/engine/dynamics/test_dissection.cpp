@@ -13,15 +13,15 @@ namespace {
 
 using testing::Draw;
 
-using Contacts = std::vector<GrainPair>;
+using Pairs = std::vector<GrainPair>;
 
 struct Lattice {
   std::vector<Record<double>> centres;
-  Contacts contacts;
+  Pairs contacts;
 
   std::vector<std::int32_t> order() const { return elimination_order(centres, contacts); }
-  Contacts in_order() const {
-    Contacts sorted;
+  Pairs in_order() const {
+    Pairs sorted;
     for (const std::int32_t k : order()) sorted.push_back(contacts[static_cast<std::size_t>(k)]);
     return sorted;
   }
@@ -31,7 +31,7 @@ struct Lattice {
 /// the floor, in random order.
 Lattice lattice(int side) {
   Lattice all;
-  Contacts& contacts = all.contacts;
+  Pairs& contacts = all.contacts;
   const auto grain = [&](int x, int y, int z) { return (z * side + y) * side + x; };
   for (int z = 0; z < side; ++z) {
     for (int y = 0; y < side; ++y) {
@@ -53,7 +53,7 @@ bool share_a_grain(GrainPair p, GrainPair q) {
   return q.a == p.a || q.a == p.b || q.b == p.a || q.b == p.b;
 }
 /// A regular matrix whose entries are the contacts that share a grain.
-Eigen::SparseMatrix<double> matrix_of(const Contacts& contacts) {
+Eigen::SparseMatrix<double> matrix_of(const Pairs& contacts) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto size = static_cast<int>(contacts.size());
   for (int i = 0; i < size; ++i) {
@@ -90,9 +90,9 @@ TEST_CASE("every contact is eliminated once") {
 
 TEST_CASE("contacts at one place, or all of one grain, are ordered, too") {
   const std::vector<Record<double>> twins(2, {1.0, 1.0, 1.0, 0.5});
-  CHECK(elimination_order(twins, Contacts(300, {0, 1})).size() == 300);
+  CHECK(elimination_order(twins, Pairs(300, {0, 1})).size() == 300);
   std::vector<Record<double>> centres = {{0.0, 0.0, 0.0, 0.5}};
-  Contacts star;
+  Pairs star;
   for (std::int32_t k = 1; k <= 300; ++k) {
     centres.push_back({k + 0.0, 0.0, 0.0, 0.5});
     star.push_back({0, k});
@@ -103,7 +103,7 @@ TEST_CASE("contacts at one place, or all of one grain, are ordered, too") {
 // A third of a lattice's contacts, and more, are cut off from another third by those that come
 // last.
 TEST_CASE("the last contacts part the others") {
-  const Contacts sorted = lattice(10).in_order();
+  const Pairs sorted = lattice(10).in_order();
   std::size_t apart = 0;
   for (std::size_t cut = sorted.size() / 3; cut < 2 * sorted.size() / 3; ++cut) {
     std::set<std::int32_t> before;

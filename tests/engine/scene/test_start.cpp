@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/results.hpp"
+#include "engine/scene/sizes.hpp"
 #include "engine/scene/start.hpp"
 #include "engine/units.hpp"
 #include "tests/support/about.hpp"

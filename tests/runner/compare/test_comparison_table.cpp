@@ -10,10 +10,10 @@
 namespace grainsweep {
 namespace {
 
-using Cells = std::map<std::string, std::string>;
+using Line = std::map<std::string, std::string>;
 
 /// The rows of a table that has no quotes, column -> cell.
-std::vector<Cells> rows_of_table(const std::string& csv) {
+std::vector<Line> rows_of_table(const std::string& csv) {
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells;
     std::istringstream rest(line + ",");
@@ -24,7 +24,7 @@ std::vector<Cells> rows_of_table(const std::string& csv) {
   std::string line;
   std::getline(lines, line);
   const std::vector<std::string> names = cells_of(line);
-  std::vector<Cells> rows;
+  std::vector<Line> rows;
   while (std::getline(lines, line)) {
     const std::vector<std::string> cells = cells_of(line);
     REQUIRE(cells.size() == names.size());
@@ -48,25 +48,25 @@ Comparison z_at_ten() {
 
 TEST_CASE("a row has both values, their difference in three ways and the verdict") {
   Comparison row = z_at_ten();
-  Cells cells = rows_of_table(comparison_csv({row}, {})).at(0);
-  const Cells expected = {{"family", "MSP"},
-                          {"quantity", "Z"},
-                          {"width", "10"},
-                          {"published", "5 ± 0.25"},
-                          {"published_low", "5"},
-                          {"published_high", "5"},
-                          {"published_error", "0.25"},
-                          {"measured", "5.5"},
-                          {"measured_error", "0"},
-                          {"bias_bound", "0.125"},
-                          {"difference", "0.5"},
-                          {"relative_difference", "0.1"},
-                          {"difference_in_errors", "2"},
-                          {"agreement", "agrees"},
-                          {"chi2_per_dof", ""},
-                          {"reason", ""},
-                          {"published_definition", "by hand"},
-                          {"measured_definition", "neighbours per grain"}};
+  Line cells = rows_of_table(comparison_csv({row}, {})).at(0);
+  const Line expected = {{"family", "MSP"},
+                         {"quantity", "Z"},
+                         {"width", "10"},
+                         {"published", "5 ± 0.25"},
+                         {"published_low", "5"},
+                         {"published_high", "5"},
+                         {"published_error", "0.25"},
+                         {"measured", "5.5"},
+                         {"measured_error", "0"},
+                         {"bias_bound", "0.125"},
+                         {"difference", "0.5"},
+                         {"relative_difference", "0.1"},
+                         {"difference_in_errors", "2"},
+                         {"agreement", "agrees"},
+                         {"chi2_per_dof", ""},
+                         {"reason", ""},
+                         {"published_definition", "by hand"},
+                         {"measured_definition", "neighbours per grain"}};
   CHECK(cells == expected);
   row.measured.estimate.value = 5.875;
   CHECK(rows_of_table(comparison_csv({row}, {}))[0]["agreement"] ==
@@ -83,7 +83,7 @@ TEST_CASE("what is not known is empty, and its reason is given") {
   reason.measured.not_determined = "has 2 widths";
   Comparison range = z_at_ten();
   range.published.range = Published::Range{5, 6, 0};
-  std::vector<Cells> rows = rows_of_table(comparison_csv({words, reason, range}, {}));
+  std::vector<Line> rows = rows_of_table(comparison_csv({words, reason, range}, {}));
   for (const char* column :
        {"width", "published_low", "published_high", "published_error", "difference",
         "relative_difference", "difference_in_errors", "agreement"}) {
@@ -108,12 +108,12 @@ TEST_CASE("a formula has a row for each width, with its value there") {
   Reference reference;
   const PublishedFormula formula{"0.63 - 0.2/W", "line", 4, 10, {0, 0.5}};
   reference.families = {{{}, {{"phi", 0, "line: 0.63 - 0.2/W", std::nullopt, "", formula}}}};
-  std::vector<Cells> rows =
+  std::vector<Line> rows =
       rows_of_table(comparison_csv(compare_with(reference, analyse(sweep)), {}));
   REQUIRE(rows.size() == 2);
   CHECK(rows[0]["width"] == "5");
   CHECK(rows[1]["width"] == "10");
-  for (Cells& row : rows) {
+  for (Line& row : rows) {
     const double published = 0.63 - 0.2 / std::stod(row["width"]);
     CHECK(std::stod(row["published_low"]) == Approx(published));
     CHECK(std::stod(row["published_error"]) == Approx(0.5 * published));
