@@ -48,6 +48,9 @@ bool has(const std::vector<std::string>& keys, const std::string& key) {
 /// Where `value` belongs that is written as `key` into the wrong place; "" if nobody knows.
 std::string where_to_put(const std::string& key, const Json& value, const KeysOfPlace& place) {
   if (has(place.elsewhere, key)) return "put it " + place.other_place;
+  if (key == "until" || key == "most") {
+    return R"(put it into "replicates": { "until": { "solid_fraction": 0.001 }, "most": 100 })";
+  }
   const bool is_meant = is_path(key);
   const bool is_misspelt = !is_meant && !nearest(key, place.known).empty();
   const std::string path = is_meant ? key : is_misspelt ? "" : path_without_groups(key);
