@@ -174,10 +174,12 @@ bool is_moderated(const Field& field) {
   return field.name == "solid_fraction" || field.name.starts_with("coordination");
 }
 
-constexpr double rounding = 1e-12;  // of sums over the grains of a bed, relative
+constexpr double rounding_of_sums = 1e-12;  // of sums over the grains of a bed, relative
 
 /// Whether replicates that scatter by no more than rounding are copies.
-bool scatters(const Spread& spread, double by) { return by > rounding * std::abs(spread.mean); }
+bool scatters(const Spread& spread, double by) {
+  return by > rounding_of_sums * std::abs(spread.mean);
+}
 
 /// Whether replicates are all in the one state that is possible, as single files: no two disordered
 /// packings have the same solid fraction to 1e-5. Their coordination numbers alone do not tell it,
@@ -191,7 +193,7 @@ bool are_in_one_state(const Group& group) {
 /// Gives a mean that is the same in all replicates the error of its rounding.
 void make_exact(Spread& spread) {
   constexpr double above_rounding = 10.0;
-  spread.error = above_rounding * rounding * std::abs(spread.mean);
+  spread.error = above_rounding * rounding_of_sums * std::abs(spread.mean);
 }
 
 void moderate_errors(std::vector<Group>& groups) {
