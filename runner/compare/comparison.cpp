@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "engine/text.hpp"
 #include "runner/compare/formula.hpp"
@@ -21,7 +23,7 @@ int decimals_for(double error) {
 std::vector<Published> published_of(const Reference& reference, const Family& family) {
   std::vector<Published> values;
   for (const PublishedFamily& entry : reference.families) {
-    if (!describes(entry, family)) continue;
+    if (!describes(entry.where, family)) continue;
     values.insert(values.end(), entry.values.begin(), entry.values.end());
   }
   return values;
@@ -44,11 +46,14 @@ std::string errors_text(double errors) {
   return text;
 }
 
-std::string difference_text(const Comparison& at, const std::string& symbol) {
-  return signed_text(*difference(at)) + " at " + symbol + " = " + cell(at.published.width) + " d";
+/// Where a value of a row stands along it: "W = 5 d", "0.5 d from the wall".
+std::string place_of(const Comparison& at, const Published& published) {
+  return published.formula
+             ? symbol_of_formula(published.formula->text) + " = " + cell(at.published.width) + " d"
+             : cell(at.distance) + " d from the wall";
 }
 
-/// How many widths agree with a formula, and how far they lie from it.
+/// How many widths agree with a formula, or points with a profile, and how far they lie from it.
 std::string along_text(const Comparison& row) {
   const std::vector<Comparison>& along = row.along;
   const auto with = [&](Agreement agreement) {
@@ -62,19 +67,26 @@ std::string along_text(const Comparison& row) {
     return *difference(a) < *difference(b);
   };
   const auto [least, most] = std::minmax_element(along.begin(), along.end(), is_less);
-  double mean = 0.0;
-  for (const Comparison& at : along) mean += *difference(at) / static_cast<double>(along.size());
-  std::string text = known == 0 ? "no error is known at any width"
+  double mean = 0.0, mean_square = 0.0;
+  for (const Comparison& at : along) {
+    mean += *difference(at) / static_cast<double>(along.size());
+    mean_square += std::pow(*difference(at), 2) / static_cast<double>(along.size());
+  }
+  const std::string one_of_them = name_of_each(row.published);
+  std::string text = known == 0 ? "no error is known at any " + one_of_them
                                 : joined("agrees at ", with(Agreement::agrees) + by_bound, " of ",
-                                         counted(known, "width"));
+                                         counted(known, one_of_them));
   if (by_bound > 0) text += joined(", at ", by_bound, " of them within the bound of settling");
   if (known > 0 && unknown > 0) text += joined(", no error at ", unknown, " more");
   if (row.without_value > 0) text += joined(", no value at ", row.without_value, " more");
   text += "; here minus published: ";
-  const std::string symbol = symbol_of_formula(row.published.formula->text);
-  if (along.size() == 1) return text + difference_text(*least, symbol);
-  return text + signed_text(mean) + " in the mean, " + difference_text(*least, symbol) + " to " +
-         difference_text(*most, symbol);
+  const auto at = [&](const Comparison& one) {
+    return signed_text(*difference(one)) + " at " + place_of(one, row.published);
+  };
+  if (along.size() == 1) return text + at(*least);
+  return text + signed_text(mean) + " in the mean, " +
+         (row.published.profile ? fixed(std::sqrt(mean_square), 4) + " root mean square, " : "") +
+         at(*least) + " to " + at(*most);
 }
 
 std::string row_text(const Comparison& row) {
@@ -94,15 +106,15 @@ std::string row_text(const Comparison& row) {
          "\n";
 }
 
-std::string formula_text(const Comparison& row) {
+/// The row of a formula or a profile.
+std::string curve_text(const Comparison& row) {
   const std::string& source = row.published.definition;
   return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
          (row.along.empty() ? "not determined: " + row.measured.not_determined : verdict(row)) +
          "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
          (row.along.empty() ? ""
-                            : "      here, at " + symbol_of_formula(row.published.formula->text) +
-                                  " = " + cell(row.along.back().published.width) +
-                                  " d: " + row.measured.definition + "\n");
+                            : "      here, at " + place_of(row.along.back(), row.published) + ": " +
+                                  row.measured.definition + "\n");
 }
 
 std::string head_of(const std::string& family) {
@@ -120,7 +132,7 @@ std::string left_out_text(const Reference& reference, const std::vector<Family>&
   if (!text.empty()) text = "\nNothing is published there of\n" + text;
   for (const PublishedFamily& entry : reference.families) {
     const bool is_here = std::any_of(families.begin(), families.end(), [&](const Family& family) {
-      return describes(entry, family);
+      return describes(entry.where, family);
     });
     if (is_here) continue;
     text += "\nNot in the sweep:";
@@ -140,6 +152,10 @@ std::string left_out_text(const Reference& reference, const std::vector<Family>&
 }
 
 }  // namespace
+
+std::string name_of_each(const Published& published) {
+  return published.profile ? "point" : "width";
+}
 
 std::optional<double> difference(const Comparison& comparison) {
   const auto& range = comparison.published.range;
@@ -197,9 +213,8 @@ namespace {
 
 Comparison compare_with(const Published& value, const Family& family, const std::string& folder) {
   const std::string symbol = extent_symbol(family.walled);
-  return {family.name,  title_of_quantity(value.quantity, value.width, symbol),
-          value,        measure_quantity(value.quantity, value.width, family, folder),
-          std::nullopt, {}};
+  return {family.name, title_of_quantity(value.quantity, value.width, symbol), value,
+          measure_quantity(value.quantity, value.width, family, folder)};
 }
 
 /// Sets a measured value beside that of a formula, which is nothing where it is no number, or no
@@ -216,7 +231,7 @@ void add_width(Measured measured, double width, Comparison& row) {
   }
   row.measured = measured;
   measured.not_determined.clear();  // of a single packing, which has a value without an error
-  Comparison at{row.family, row.title, row.published, std::move(measured), {}, {}, 0};
+  Comparison at{row.family, row.title, row.published, std::move(measured)};
   at.published.width = width;
   at.published.range = {published, published, formula.error.of(published)};
   row.along.push_back(std::move(at));
@@ -227,7 +242,7 @@ Comparison compare_with_formula(const Published& value, const Family& family,
                                 const std::string& folder) {
   const PublishedFormula& formula = *value.formula;
   const std::string symbol = symbol_of_formula(formula.text);
-  Comparison row{family.name, title_of_quantity(value.quantity, 0.0, ""), value, {}, {}, {}, 0};
+  Comparison row{family.name, title_of_quantity(value.quantity, 0.0, ""), value};
   row.measured.not_determined = "this family has no packings at a " + symbol + " where it holds";
   if (extent_symbol(family.walled) != symbol) return row;
   for (const Group& group : family.walled) {
@@ -243,6 +258,64 @@ Comparison compare_with_formula(const Published& value, const Family& family,
   return row;
 }
 
+/// The measured profile of a family beside a published one, at its width.
+Comparison compare_with_profile(const Published& value, const Family& family,
+                                const std::string& folder) {
+  const std::string symbol = extent_symbol(family.walled);
+  Comparison row{family.name,
+                 "profile of " + title_of_quantity(value.quantity, value.width, symbol), value};
+  PublishedProfile& published = *row.published.profile;
+  published.points = points_at(value.width, value);
+  row.measured.not_determined = "the formula has no value that " + value.quantity + " can be";
+  std::vector<double> distances;
+  distances.reserve(published.points.size());
+  for (const PublishedProfile::Point& point : published.points) {
+    distances.push_back(point.distance);
+  }
+  const MeasuredProfile measured =
+      measure_profile(value.quantity, value.width, distances, family, folder);
+  row.group = measured.group == nullptr ? 0 : measured.group->number;
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    if (row.along.empty()) row.measured = measured.values[k];
+    if (!measured.values[k].not_determined.empty()) {
+      ++row.without_value;
+      continue;
+    }
+    Comparison at{row.family, row.title, row.published, measured.values[k]};
+    const double there = published.points[k].value;
+    at.published.range = {there, there, published.error.of(there)};
+    at.distance = distances[k];
+    row.along.push_back(std::move(at));
+  }
+  return row;
+}
+
+/// The widths between walls of a family, each once.
+std::set<double> widths_of(const Family& family) {
+  std::set<double> widths;
+  for (const Group& group : family.walled) widths.insert(group.job.box.width);
+  return widths;
+}
+
+/// Appends a published value, formula or profile beside what a family has. A profile that belongs
+/// to no width is set beside those of all.
+void append_comparisons(const Published& value, const Family& family, const std::string& folder,
+                        std::vector<Comparison>& rows) {
+  if (value.formula) {
+    rows.push_back(compare_with_formula(value, family, folder));
+  } else if (value.profile && value.width == 0.0) {
+    Published at_width = value;
+    for (const double width : widths_of(family)) {
+      at_width.width = width;
+      rows.push_back(compare_with_profile(at_width, family, folder));
+    }
+  } else if (value.profile) {
+    rows.push_back(compare_with_profile(value, family, folder));
+  } else {
+    rows.push_back(compare_with(value, family, folder));
+  }
+}
+
 }  // namespace
 
 std::vector<Comparison> compare_with(const Reference& reference, const Analysis& analysis) {
@@ -250,18 +323,14 @@ std::vector<Comparison> compare_with(const Reference& reference, const Analysis&
   std::vector<Comparison> rows;
   for (const Family& family : families) {
     for (const Published& value : published_of(reference, family)) {
-      rows.push_back(value.formula ? compare_with_formula(value, family, folder)
-                                   : compare_with(value, family, folder));
+      append_comparisons(value, family, folder, rows);
     }
   }
   for (const Published& value : reference.common) {
     const Shared shared = share_quantity(value.quantity, value.width, families, folder);
     rows.push_back({"all families",
-                    title_of_quantity(value.quantity, value.width, extent_symbol(families)),
-                    value,
-                    shared.measured,
-                    shared.misfit,
-                    {}});
+                    title_of_quantity(value.quantity, value.width, extent_symbol(families)), value,
+                    shared.measured, shared.misfit});
   }
   return rows;
 }
@@ -271,7 +340,7 @@ std::string comparison_text(const Reference& reference, const Analysis& analysis
   for (const Comparison& row : compare_with(reference, analysis)) {
     if (row.family != family) text += head_of(row.family);
     family = row.family;
-    text += row.published.formula ? formula_text(row) : row_text(row);
+    text += row.published.formula || row.published.profile ? curve_text(row) : row_text(row);
   }
   return text + left_out_text(reference, analysis.families);
 }

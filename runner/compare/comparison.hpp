@@ -23,11 +23,13 @@ struct Comparison {
   std::string title;  ///< "Z at W = 10 d"
   Published published;
   Measured measured;
-  std::optional<Misfit> misfit;  ///< of families, for a value that is said to hold for all
+  std::optional<Misfit> misfit = {};  ///< of families, for a value that is said to hold for all
   /// Of a formula: each width of the family where it holds and both values are known, with the
-  /// formula's value there.
-  std::vector<Comparison> along;
+  /// formula's value there. Of a profile: each of its points where the measured value is known.
+  std::vector<Comparison> along = {};
   std::size_t without_value = 0;  ///< how many more there are where one of them is not
+  double distance = 0.0;          ///< of such a point from the wall, d
+  std::size_t group = 0;          ///< the number of the group that a profile is of; else 0
 };
 
 /// Measured minus published value, from the nearer end of a range and 0 inside it; nothing if
@@ -43,9 +45,12 @@ std::optional<double> relative_difference(const Comparison& comparison);
 /// Unknown where one side is missing or has no error.
 Agreement agreement_of(const Comparison& comparison);
 
-/// "agrees: -0.013, 0.8 errors"; "differs: ..."; of a formula "agrees at 3 of 9 widths; ..."; "-"
-/// if there is nothing to compare.
+/// "agrees: -0.013, 0.8 errors"; "differs: ..."; of a formula "agrees at 3 of 9 widths; ...", of a
+/// profile "agrees at 30 of 40 points; ..."; "-" if there is nothing to compare.
 std::string verdict(const Comparison& comparison);
+
+/// What `along` of a row lists: "width" of a formula, "point" of a profile.
+std::string name_of_each(const Published& published);
 
 /// What the source has for each family, then what it says of all. Families for which it has
 /// nothing, and published families that are not in the sweep, are named by comparison_text.

@@ -56,11 +56,13 @@ Columns<Comparison> published_columns() {
          const double width = line.published.width;
          return cell(width > 0.0 ? width : no_number);
        }},
-      {"published", "", "as printed there: a value, a formula or words",
+      {"distance", "d", "from the nearest wall, of a point of a profile; else empty",
+       [](Line line) { return cell(line.published.profile ? line.distance : no_number); }},
+      {"published", "", "as printed there: a value, a formula, words, or what a profile has",
        [](Line line) { return cell(line.published.text); }},
       {"published_low", "",
-       "the published value, of a formula that at this width; of a range its "
-       "lower end",
+       "the published value, of a formula that at this width, of a profile that at this distance; "
+       "of a range its lower end",
        range_cell(&Range::low)},
       {"published_high", "", "the same, of a range its upper end", range_cell(&Range::high)},
       {"published_error", "", "standard error of it; 0 if the source has none",

@@ -10,6 +10,7 @@
 #include "runner/tables/csv.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/fits.hpp"
+#include "runner/tables/profiles.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -202,6 +203,65 @@ Measured mean_of_groups(const std::vector<Measured>& groups, const std::vector<d
   return mean;
 }
 
+/// The text that says that no packing of a family has a width.
+std::string no_packings_at(double width, const Family& family) {
+  return std::string("this family has no packings ") +
+         (first_group(family).job.box.is_tube ? "in tubes at " : "between walls at ") +
+         extent_symbol(family.walled) + " = " + cell(width) + " d";
+}
+
+/// The mean of a profile at `y`, linear between the middles of bins.
+Estimate value_at(double y, const std::vector<MeanBin>& bins, Spread MeanBin::*spread) {
+  const double bin_width = bins.front().high - bins.front().low;
+  const double last = static_cast<double>(bins.size()) - 1.0;
+  const double place = std::clamp(y / bin_width - 0.5, 0.0, last);
+  const double lower = std::min(std::floor(place), std::max(last - 1.0, 0.0));
+  const double share = place - lower;
+  const auto below = static_cast<std::size_t>(lower);
+  const Spread& a = bins[below].*spread;
+  if (share == 0.0) return {a.mean, a.error};
+  const Spread& b = bins[below + 1].*spread;
+  return {(1.0 - share) * a.mean + share * b.mean, (1.0 - share) * a.error + share * b.error};
+}
+
+/// The same at a distance from the nearest wall: of a gap, the mean of both halves.
+Estimate value_from_wall(double distance, const Group& group, const std::vector<MeanBin>& bins,
+                         Spread MeanBin::*spread) {
+  const Estimate here = value_at(distance, bins, spread);
+  if (group.job.box.is_tube) return here;
+  const Estimate there = value_at(group.job.box.width - distance, bins, spread);
+  return {(here.value + there.value) / 2.0, std::hypot(here.error, there.error) / 2.0};
+}
+
+/// The values of one group at these distances.
+std::vector<Measured> profile_of(const std::string& quantity, const std::vector<double>& distances,
+                                 const Group& group, const std::string& folder) {
+  const GroupWithCurves with_curves(group, folder);
+  const std::vector<MeanBin> bins = mean_profile(*with_curves, profile_across(*with_curves));
+  const bool is_z = quantity == "Z";
+  const auto spread = is_z ? &MeanBin::coordination : &MeanBin::solid_fraction;
+  std::vector<Measured> values;
+  for (const double distance : distances) {
+    Measured& one = values.emplace_back();
+    if (bins.empty()) {
+      one.not_determined = "no packing has settled";
+    } else if (distance > group.job.box.width / 2.0) {
+      one.not_determined = "it lies beyond the middle";
+    }
+    if (!one.not_determined.empty()) continue;
+    one.estimate = value_from_wall(distance, *with_curves, bins, spread);
+    if (!std::isfinite(one.estimate.value)) one.not_determined = "no grain has its centre there";
+    if (quantity == "porosity") one.estimate.value = 1.0 - one.estimate.value;
+    one.definition =
+        std::string(is_z ? "neighbours of grains whose centres lie there, walls not counted"
+                         : "exact solid volume") +
+        " in bins " + short_cell(bins.front().high - bins.front().low) +
+        " d wide, of the measured slab" +
+        (group.job.box.is_tube ? "" : ", mean of both halves of the gap");
+  }
+  return values;
+}
+
 }  // namespace
 
 bool is_share(std::string_view quantity) {
@@ -257,11 +317,29 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
     packings.push_back(static_cast<double>(group.counts.settled));
   }
   if (!of_groups.empty()) return mean_of_groups(of_groups, packings);
-  return {{},
-          std::string("this family has no packings ") +
-              (first_group(family).job.box.is_tube ? "in tubes at " : "between walls at ") +
-              extent_symbol(family.walled) + " = " + cell(width) + " d",
-          ""};
+  return {{}, no_packings_at(width, family), ""};
+}
+
+MeasuredProfile measure_profile(const std::string& quantity, double width,
+                                const std::vector<double>& distances, const Family& family,
+                                const std::string& folder) {
+  MeasuredProfile profile;
+  std::vector<std::vector<Measured>> of_groups;
+  std::vector<double> packings;
+  for (const Group& group : family.walled) {
+    if (group.job.box.width != width) continue;
+    if (profile.group == nullptr) profile.group = &group;
+    of_groups.push_back(profile_of(quantity, distances, group, folder));
+    packings.push_back(static_cast<double>(group.counts.settled));
+  }
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    std::vector<Measured> there;
+    there.reserve(of_groups.size());
+    for (const std::vector<Measured>& one : of_groups) there.push_back(one[k]);
+    profile.values.push_back(there.empty() ? Measured{{}, no_packings_at(width, family), ""}
+                                           : mean_of_groups(there, packings));
+  }
+  return profile;
 }
 
 Shared share_quantity(const std::string& quantity, double width,

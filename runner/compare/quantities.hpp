@@ -45,6 +45,17 @@ Measured measure_quantity(const std::string& quantity, double width, const Famil
 Measured measure_quantity(const std::string& quantity, const Family& family, const Group& group,
                           const std::string& folder = "");
 
+/// phi, porosity or Z (is_mean_of_width) at these distances from the nearest wall, d, between walls
+/// that are `width` apart: its profile, linear between the middles of bins, of both halves of a
+/// gap. Also tells the group that it is of, the first one of that width; null if there is none.
+struct MeasuredProfile {
+  const Group* group = nullptr;
+  std::vector<Measured> values;  ///< one for each distance
+};
+MeasuredProfile measure_profile(const std::string& quantity, double width,
+                                const std::vector<double>& distances, const Family& family,
+                                const std::string& folder = "");
+
 /// The mean of a quantity over all families, weighted by their errors, with its error and, in the
 /// definition, chi2 per degree of freedom: whether one value holds for all.
 struct Shared {

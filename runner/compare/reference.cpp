@@ -1,6 +1,7 @@
 #include "runner/compare/reference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -11,16 +12,14 @@
 #include "runner/store/files.hpp"
 #include "runner/sweep/diagnostic.hpp"
 #include "runner/sweep/json_text.hpp"
-#include "runner/sweep/parameters.hpp"
 #include "runner/sweep/suggest.hpp"
 #include "runner/sweep/text_lines.hpp"
 #include "runner/sweep/values.hpp"
 #include "runner/tables/csv.hpp"
+#include "runner/text.hpp"
 
 namespace grainsweep {
 namespace {
-
-using nlohmann::json;
 
 /// Whether `value` is an object; otherwise a problem is noted.
 bool is_object(const Json& value, const std::string& pointer, Diagnostics& diagnostics) {
@@ -92,15 +91,27 @@ std::optional<Published::Range> read_range(const Json& value, const PublishedErr
   return std::nullopt;
 }
 
+/// " ± 0.01", " ± 5 %", or nothing.
+std::string text_of(const PublishedError& error) {
+  if (error.own > 0.0) return " ± " + cell(error.own);
+  return error.relative > 0.0 ? " ± " + short_cell(100.0 * error.relative) + " %" : "";
+}
+
+/// "Mueller: 40 points from 0.05 to 3.5 d", or the formula in their place.
+std::string text_of(const PublishedProfile& profile) {
+  const std::string name = profile.name.empty() ? "" : profile.name + ": ";
+  if (!profile.formula.empty()) return name + profile.formula + text_of(profile.error);
+  return name + counted(profile.points.size(), "point") + " from " +
+         cell(profile.points.front().distance) + " to " + cell(profile.points.back().distance) +
+         " d" + text_of(profile.error);
+}
+
 std::string text_of(const Published& published) {
+  if (published.profile) return text_of(*published.profile);
   if (published.formula) {
     const PublishedFormula& formula = *published.formula;
-    const std::string text =
-        (formula.name == formula.text ? "" : formula.name + ": ") + formula.text;
-    if (formula.error.own > 0.0) return text + " ± " + cell(formula.error.own);
-    return text + (formula.error.relative > 0.0
-                       ? " ± " + short_cell(100.0 * formula.error.relative) + " %"
-                       : "");
+    return (formula.name == formula.text ? "" : formula.name + ": ") + formula.text +
+           text_of(formula.error);
   }
   const auto& range = published.range;
   if (!range) return "-";
@@ -146,42 +157,115 @@ std::optional<PublishedFormula> read_formula(const Json& from, const std::string
   return std::nullopt;
 }
 
+/// Whether `value` is a number that the quantity can be; otherwise a problem is noted.
+bool is_possible(const std::string& quantity, double low, double high, const std::string& text,
+                 const std::string& pointer, Diagnostics& diagnostics) {
+  if (!is_share(quantity) || (low >= 0.0 && high <= 1.0)) return true;
+  diagnostics.push_back(
+      {pointer, "a share of the volume lies in [0, 1]; divide percentages by 100, is " + text});
+  return false;
+}
+
+/// The points of a list. Notes the first that is none.
+void read_points(const Json& list, const std::string& quantity, const std::string& pointer,
+                 PublishedProfile& profile, Diagnostics& diagnostics) {
+  const auto is_point = [](const Json& one) {
+    return one.is_array() && one.size() == 2 && one[0].is_number() && one[1].is_number() &&
+           one[0].get<double>() >= 0.0;
+  };
+  for (const Json& one : list) {
+    const std::string at = child_pointer(pointer, std::to_string(profile.points.size()));
+    if (!is_point(one)) {
+      diagnostics.push_back({at, "must be a point [distance from the wall in d, value], is " +
+                                     (one.is_array() ? shortened(one.dump()) : describe(one))});
+      return;
+    }
+    if (!is_possible(quantity, one[1], one[1], one[1].dump(), at, diagnostics)) return;
+    profile.points.push_back({one[0], one[1]});
+  }
+  std::stable_sort(profile.points.begin(), profile.points.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+}
+
+/// Nothing if there is none, or a wrong one.
+std::optional<PublishedProfile> read_profile(const Json& from, const std::string& quantity,
+                                             const std::string& pointer, Diagnostics& diagnostics) {
+  const auto found = from.find("profile");
+  if (found == from.end()) return std::nullopt;
+  const std::string place = child_pointer(pointer, "profile");
+  for (const char* other : {"value", "formula"}) {
+    if (!from.contains(other)) continue;
+    diagnostics.push_back(
+        {child_pointer(pointer, other), "a profile is given, too; keep one of them", Anchor::key});
+  }
+  PublishedProfile profile;
+  if (found->is_string()) {
+    profile.formula = on_one_line(*found);
+    const std::string fault = fault_of_formula(profile.formula, FormulaOf::distance);
+    if (fault.empty()) return profile;
+    diagnostics.push_back({place, fault});
+  } else if (found->is_array() && !found->empty()) {
+    read_points(*found, quantity, place, profile, diagnostics);
+  } else {
+    diagnostics.push_back({place,
+                           "must be a list of points [distance from the wall in d, value], or a "
+                           "formula over y, that distance, is " +
+                               describe(*found)});
+  }
+  return profile.points.empty() ? std::nullopt : std::optional(profile);
+}
+
+/// Notes why there can be no such quantity at the width, or no curve of it.
+void check_quantity(const Json& from, const Published& published, const std::string& pointer,
+                    Diagnostics& diagnostics) {
+  constexpr double any_width = 1.0;
+  const std::string& quantity = published.quantity;
+  const bool is_formula = from.contains("formula");
+  const bool is_profile_formula = from.contains("profile") && from["profile"].is_string();
+  const bool has_any_width = is_formula || (is_profile_formula && !from.contains("width"));
+  std::string fault = fault_of_quantity(quantity, has_any_width ? any_width : published.width);
+  if (is_formula && is_of_family(quantity)) {
+    fault = quantity + " is one value of a family, not one of each width: give a value";
+  }
+  if (fault.empty() && from.contains("profile") && !is_mean_of_width(quantity)) {
+    fault = "profiles are of phi, porosity or Z, is " + quantity;
+  }
+  if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
+}
+
 Published read_published(const Json& from, const std::string& pointer, Diagnostics& diagnostics) {
   Published published;
   if (!is_object(from, pointer, diagnostics)) return published;
   refuse_unknown_keys(from, pointer,
-                      {"quantity", "width", "value", "formula", "from", "to", "error",
+                      {"quantity", "width", "value", "formula", "from", "to", "profile", "error",
                        "relative_error", "text", "definition"},
                       diagnostics);
   published.quantity = read_text(from, "quantity", pointer, "", diagnostics);
   published.definition = read_text(from, "definition", pointer, "", diagnostics);
   published.formula = read_formula(from, pointer, diagnostics);
-  const bool is_formula = from.contains("formula");
   const auto width = read_number(from, "width", pointer, diagnostics);
   const PublishedError error = read_error(from, pointer, diagnostics);
   published.width = width.value_or(0.0);
+  published.profile = read_profile(from, published.quantity, pointer, diagnostics);
   if (!from.contains("quantity")) {
     diagnostics.push_back({pointer, "needs \"quantity\", its name"});
   } else if (from["quantity"].is_string() && from.contains("width") == width.has_value()) {
-    constexpr double any_width = 1.0;
-    std::string fault =
-        fault_of_quantity(published.quantity, is_formula ? any_width : published.width);
-    if (is_formula && is_of_family(published.quantity)) {
-      fault = published.quantity + " is one value of a family, not one of each width: give a value";
-    }
-    if (!fault.empty()) diagnostics.push_back({child_pointer(pointer, "quantity"), fault});
+    check_quantity(from, published, pointer, diagnostics);
   }
   if (from.contains("value")) {
     published.range =
         read_range(from["value"], error, child_pointer(pointer, "value"), diagnostics);
   }
   const auto& range = published.range;
-  if (range && is_share(published.quantity) && !(range->low >= 0.0 && range->high <= 1.0)) {
-    diagnostics.push_back({child_pointer(pointer, "value"),
-                           "a share of the volume lies in [0, 1]; divide percentages by 100, is " +
-                               text_of(published)});
+  if (range) {
+    is_possible(published.quantity, range->low, range->high, text_of(published),
+                child_pointer(pointer, "value"), diagnostics);
   }
-  if (published.formula) {
+  if (published.profile) {
+    published.profile->error = error;
+    published.profile->name = read_text(from, "text", pointer, "", diagnostics);
+    published.text = text_of(published);
+  } else if (published.formula) {
     PublishedFormula& formula = *published.formula;
     formula.error = error;
     formula.name = read_text(from, "text", pointer, formula.text, diagnostics);
@@ -212,103 +296,6 @@ auto read_list(const Json& object, const char* key, const std::string& pointer,
   return elements;
 }
 
-/// A value as `describes` compares it: 0 and 0.0 are one.
-std::string plain(const json& value) {
-  return value.is_number() ? json(value.get<double>()).dump() : value.dump();
-}
-
-bool is_of_accuracy(const std::string& path) {
-  return path == "accuracy" || path == "accuracy.preset";
-}
-
-/// What a family has at `path`, as `describes` compares it; an accuracy may have two names.
-/// `known`: its parameters by their JSON pointers.
-std::vector<std::string> values_at(const std::string& path, const Family& family,
-                                   const json& known) {
-  const JobFacts& job = first_group(family).job;
-  if (path == "shape") return {plain(job.shape)};
-  if (is_of_accuracy(path)) return {plain(job.accuracy), plain(job.settles_as)};
-  std::string pointer = "/" + path;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  if (!known.contains(pointer)) return {};
-  return {plain(known[pointer])};
-}
-
-/// Names that families are told apart by, as a parameter.
-Parameter named(std::vector<std::string> names) {
-  return {.path = "name", .meaning = "", .kind = ValueKind::choice, .choices = std::move(names)};
-}
-
-/// What families may be told apart by at `path`: a shape and an accuracy by their names, a number
-/// in a list by its place, "gap_tolerances.0". Nothing if no packing has such a parameter.
-std::optional<Parameter> distinction_at(const std::string& path) {
-  if (is_of_accuracy(path)) {
-    auto names = parameters()[parameter_with(Role::preset)].choices;
-    names.emplace_back("custom");
-    return named(std::move(names));
-  }
-  const std::size_t shape = parameter_with(Role::shape);
-  const auto index = find_parameter(path);
-  if (index == shape) {
-    auto names = parameters()[shape].choices;
-    names.insert(names.end(), {"hull", "mixture"});
-    return named(std::move(names));
-  }
-  if (index) return parameters()[*index];
-  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1)) {
-    const auto list = find_parameter(path.substr(0, dot));
-    if (!list) continue;
-    Parameter part = parameters()[*list];
-    if (part.kind == ValueKind::components) return part;
-    if (part.kind != ValueKind::numbers) continue;
-    part.kind = ValueKind::number;
-    return part;
-  }
-  return std::nullopt;
-}
-
-/// Whether its values are read as in a sweep. Packings hold others as hashes, or in parts.
-bool is_read_as_written(const Parameter& parameter) {
-  return parameter.kind == ValueKind::number || parameter.kind == ValueKind::whole ||
-         parameter.kind == ValueKind::natural || parameter.kind == ValueKind::choice;
-}
-
-/// Notes what no packing can have.
-void check_distinction(const std::string& path, const Json& value, const std::string& pointer,
-                       Diagnostics& diagnostics) {
-  const auto note = [&](const std::string& message, Anchor anchor = Anchor::value) {
-    diagnostics.push_back({pointer, message, anchor});
-  };
-  if (path == "seed") {
-    return note("families are not told apart by their seed; leave it out", Anchor::key);
-  }
-  const auto distinction = distinction_at(path);
-  const bool is_known = distinction || is_group(path);
-  if (!is_known || path.empty()) {
-    std::vector<std::string> known = {"accuracy"};
-    for (const Parameter& one : parameters()) known.push_back(one.path);
-    std::erase(known, "seed");
-    for (const std::string& whole : known) {
-      if (path.empty() || !whole.ends_with("." + path)) continue;
-      return note("unknown key \"" + path + "\"; did you mean \"" + whole + "\"?", Anchor::key);
-    }
-    const std::string how =
-        nearest(path, known).empty() ? ", and all other parameters by their dotted names" : "";
-    return note(unknown_key(path, known) + how, Anchor::key);
-  }
-  if (!distinction || value.is_object()) {
-    return note("give each part by its dotted name, as \"sizes.small_share\"");
-  }
-  if (value.is_array()) {
-    return note("give each number by its place in the list, as \"measure.gap_tolerances.0\"");
-  }
-  if (!is_read_as_written(*distinction)) return;
-  const ValueReading reading = read_value(*distinction, value);
-  const std::string error =
-      reading.value ? range_error(*distinction, *reading.value) : reading.error;
-  if (!error.empty()) note(error);
-}
-
 PublishedFamily read_family(const Json& from, const std::string& pointer,
                             Diagnostics& diagnostics) {
   PublishedFamily family;
@@ -320,11 +307,7 @@ PublishedFamily read_family(const Json& from, const std::string& pointer,
         {pointer, "needs \"where\", an object with what the parameters of the family are"});
     return family;
   }
-  const std::string place = child_pointer(pointer, "where");
-  for (const auto& [path, value] : from["where"].items()) {
-    check_distinction(path, value, child_pointer(place, path), diagnostics);
-    family.where[path] = plain(value);
-  }
+  family.where = read_where(from["where"], child_pointer(pointer, "where"), diagnostics);
   return family;
 }
 
@@ -342,9 +325,11 @@ Reference reference_of(const Json& from, Diagnostics& diagnostics) {
   reference.families = read_list(from, "families", "", diagnostics, read_family);
   reference.common = read_list(from, "common", "", diagnostics, read_published);
   for (std::size_t k = 0; k < reference.common.size(); ++k) {
-    if (!reference.common[k].formula) continue;
-    diagnostics.push_back({"/common/" + std::to_string(k) + "/formula",
-                           "formulas belong to \"families\"; { } as \"where\" means all of them",
+    const Published& one = reference.common[k];
+    if (!one.formula && !one.profile) continue;
+    const std::string kind = one.formula ? "formula" : "profile";
+    diagnostics.push_back({"/common/" + std::to_string(k) + "/" + kind,
+                           kind + "s belong to \"families\"; { } as \"where\" means all of them",
                            Anchor::key});
   }
   return reference;
@@ -369,6 +354,22 @@ Reference read_reference(const std::string& path) {
   throw BadInput(told);
 }
 
+std::vector<PublishedProfile::Point> points_at(double width, const Published& published) {
+  const PublishedProfile& profile = *published.profile;
+  if (profile.formula.empty()) return profile.points;
+  constexpr double step = 0.05;    // d; half of a usual bin
+  constexpr double most = 2000.0;  // of a gap of 200 d
+  std::vector<PublishedProfile::Point> points;
+  const double last = std::min(std::floor(width / 2.0 / step), most);
+  for (double k = 1.0; k <= last; ++k) {
+    const double value = value_of_formula(profile.formula, width, k * step);
+    const bool is_possible =
+        std::isfinite(value) && (!is_share(published.quantity) || (value >= 0.0 && value <= 1.0));
+    if (is_possible) points.push_back({without_noise(k * step), value});
+  }
+  return points;
+}
+
 std::string reference_beside(const std::string& sweep_file) {
   const std::string ending = ".json";
   const bool has_ending = sweep_file.ends_with(ending);
@@ -377,44 +378,5 @@ std::string reference_beside(const std::string& sweep_file) {
 }
 
 std::string kept_reference(const std::string& folder) { return folder + "/reference.json"; }
-
-bool describes(const PublishedFamily& published, const Family& family) {
-  const json known = json::parse(family.parameters).flatten();
-  return std::all_of(published.where.begin(), published.where.end(), [&](const auto& entry) {
-    const std::vector<std::string> own = values_at(entry.first, family, known);
-    return std::find(own.begin(), own.end(), entry.second) != own.end();
-  });
-}
-
-std::string values_in(const std::vector<Family>& families, const std::string& path) {
-  constexpr std::size_t most = 8;
-  std::vector<std::string> values;
-  for (const Family& family : families) {
-    for (const std::string& value :
-         values_at(path, family, json::parse(family.parameters).flatten())) {
-      if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-    }
-  }
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, values.size()); ++k) {
-    text += (k == 0 ? "" : ", ") + values[k];
-  }
-  if (values.size() > most) text += " and " + std::to_string(values.size() - most) + " more";
-  const auto known = find_parameter(path);
-  const std::string unit = known ? parameters()[*known].unit : "";
-  return text.empty() || unit.empty() ? text : text + " " + unit;
-}
-
-std::string advice_on(const std::string& path) {
-  if (path == "box.width" || path == "tube.diameter") {
-    return "a family has packings of any " + path +
-           ": leave it out of \"where\", and give values their \"width\"";
-  }
-  if (path == "box.y") {
-    return "a family has packings with walls and without: leave box.y out of \"where\"; quantities "
-           "that end in _unconfined are of those without";
-  }
-  return "";
-}
 
 }  // namespace grainsweep

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "runner/tables/families.hpp"
+#include "runner/compare/where.hpp"
 
 namespace grainsweep {
 
@@ -28,6 +27,18 @@ struct PublishedFormula {
   PublishedError error;                                             ///< of its values
 };
 
+/// A quantity over the distance from the nearest wall: points, or a formula of them.
+struct PublishedProfile {
+  std::string name;     ///< for keys of figures: what the file has as its text; may be empty
+  std::string formula;  ///< without fault; empty if points are given
+  struct Point {
+    double distance = 0.0;  ///< from the wall, d
+    double value = 0.0;
+  };
+  std::vector<Point> points;  ///< by distance; none of a formula (see points_at)
+  PublishedError error;       ///< of their values
+};
+
 /// One published value, in d where it is a length; for some quantities a source has only words.
 struct Published {
   std::string quantity;  ///< a name that measure_quantity knows
@@ -39,13 +50,15 @@ struct Published {
     double error = 0.0;  ///< printed error, 0 if there is none
   };
   std::optional<Range> range;
-  std::string definition;                   ///< what the source says of it; may be empty
-  std::optional<PublishedFormula> formula;  ///< in place of a value at one width
+  std::string definition;                        ///< what the source says of it; may be empty
+  std::optional<PublishedFormula> formula = {};  ///< in place of a value at one width
+  std::optional<PublishedProfile> profile = {};  ///< in place of a single value at `width`, which
+                                                 ///< a formula need not have
 };
 
-/// Values of the families that `where` describes: dotted path -> value, as JSON.
+/// Values of the families that `where` describes.
 struct PublishedFamily {
-  std::map<std::string, std::string> where;
+  Where where;
   std::vector<Published> values;
 };
 
@@ -59,22 +72,16 @@ struct Reference {
 /// FileError if it cannot be read.
 Reference read_reference(const std::string& path);
 
+/// The points of a published profile where the gap or the diameter is `width`, d. A formula gives
+/// one every 0.05 d, up to the middle of a gap or the axis of a tube, where it has a value that the
+/// quantity can be.
+std::vector<PublishedProfile::Point> points_at(double width, const Published& published);
+
 /// Where the published values of a sweep are: "configs/paper.reference.json" for
 /// "configs/paper.json".
 std::string reference_beside(const std::string& sweep_file);
 
 /// Where an output folder keeps them for when they are no longer there.
 std::string kept_reference(const std::string& folder);
-
-/// Whether `family` is one that the `where` of `published` describes: by its parameters, by the
-/// name of its shape, and by that of the preset that it settles as.
-bool describes(const PublishedFamily& published, const Family& family);
-
-/// What families have at `path`, as `where` has it, with its unit: "1.1, 1.2 d"; "" if nothing.
-std::string values_in(const std::vector<Family>& families, const std::string& path);
-
-/// What to write in `where` in place of a parameter that families do not have, since their packings
-/// differ in it; "" for any other path.
-std::string advice_on(const std::string& path);
 
 }  // namespace grainsweep

@@ -447,7 +447,7 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   std::vector<Figure> figures;
   if (!axes.scattered.empty()) figures.push_back(parameters_figure(axes));
   figures.push_back(means_figure(axes, analysis.families, comparisons));
-  figures.push_back(profiles_figure(axes));
+  figures.push_back(profiles_figure(axes, comparisons));
   const auto shares = by_small_share(analysis.families);
   if (!shares.empty() && shares.begin()->first < shares.rbegin()->first) {
     figures.push_back(small_share_figure(analysis.families, analysis.folder));
@@ -463,7 +463,9 @@ std::vector<Figure> figures_of(const std::vector<Row>& rows, const Analysis& ana
   if (has_grading(axes)) figures.push_back(grading_figure(axes));
   figures.push_back(distributions_figure(axes));
   figures.push_back(effort_figure(axes, rows));
-  const auto is_value = [](const Comparison& one) { return !one.published.formula; };
+  const auto is_value = [](const Comparison& one) {
+    return !one.published.formula && !one.published.profile;
+  };
   if (std::any_of(comparisons.begin(), comparisons.end(), is_value)) {
     figures.push_back(published_figure(comparisons));
   }

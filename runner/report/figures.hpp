@@ -13,9 +13,9 @@ namespace grainsweep {
 
 /// What the files of figures begin with.
 inline constexpr std::array figure_names = {
-    "parameters",    "means",   "means-residuals", "means-published", "profiles",
-    "heights",       "grading", "small_grains",    "components",      "contacts",
-    "distributions", "effort",  "published"};
+    "parameters",         "means",         "means-residuals", "means-published", "profiles",
+    "profiles-published", "heights",       "grading",         "small_grains",    "components",
+    "contacts",           "distributions", "effort",          "published"};
 
 /// Solid fraction, porosity and coordination number along the axis, with fits and their residuals,
 /// and published formulas of them.
@@ -26,8 +26,8 @@ Figure means_figure(const Axes& axes, const std::vector<Family>& families,
 Figure parameters_figure(const Axes& axes);
 
 /// Solid fraction and coordination number across the gap, beside each other, with the damped
-/// cosine that was fitted.
-Figure profiles_figure(const Axes& axes);
+/// cosine that was fitted, and published profiles, whose groups it shows if there are any.
+Figure profiles_figure(const Axes& axes, const std::vector<Comparison>& comparisons);
 
 /// Solid fraction and coordination number from the floor to the surface.
 Figure heights_figure(const Axes& axes);

@@ -49,8 +49,8 @@ std::vector<PublishedCurve> curves_of(const Axes& axes,
                                       const std::vector<Comparison>& comparisons) {
   std::vector<PublishedCurve> curves;
   for (const Comparison& one : comparisons) {
-    if (!is_over_width(axes) || one.along.empty() || !is_mean_of_width(one.published.quantity))
-      continue;
+    const bool is_curve = one.published.formula && !one.along.empty();
+    if (!is_over_width(axes) || !is_curve || !is_mean_of_width(one.published.quantity)) continue;
     const PublishedFormula& formula = *one.published.formula;
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const PublishedCurve& known) {
       return known.quantity == one.published.quantity && known.formula.text == formula.text &&

@@ -129,11 +129,17 @@ std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most) {
   return spread_over(settled_groups(axes), most, axes.folder);
 }
 
-std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most) {
-  std::vector<const Group*> walled, all = settled_groups(axes);
-  std::copy_if(all.begin(), all.end(), std::back_inserter(walled),
-               [](const Group* group) { return group->job.box.y == Boundary::walls; });
-  return spread_over(walled.empty() ? all : walled, most, axes.folder);
+std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most,
+                                                  const std::set<std::size_t>& numbers) {
+  std::vector<const Group*> chosen = settled_groups(axes);
+  const auto keep = [&](const auto& is_such) {
+    std::vector<const Group*> such;
+    std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(such), is_such);
+    if (!such.empty()) chosen = such;
+  };
+  keep([](const Group* group) { return group->job.box.y == Boundary::walls; });
+  keep([&](const Group* group) { return numbers.contains(group->number); });
+  return spread_over(chosen, most, axes.folder);
 }
 
 std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most) {

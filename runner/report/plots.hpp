@@ -59,8 +59,10 @@ std::string thinned_text(const Axes& drawn, const Axes& axes);
 /// Groups with a settled packing, at most `most` of them, evenly spread over all. Throws FileError.
 std::vector<GroupWithCurves> chosen_groups(const Axes& axes, std::size_t most);
 
-/// The same for groups between walls, if there are any.
-std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most);
+/// The same for groups between walls, if there are any: for those of these numbers, if there are
+/// any.
+std::vector<GroupWithCurves> chosen_walled_groups(const Axes& axes, std::size_t most,
+                                                  const std::set<std::size_t>& numbers = {});
 
 /// The same for mixtures.
 std::vector<GroupWithCurves> chosen_mixtures(const Axes& axes, std::size_t most);

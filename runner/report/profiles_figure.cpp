@@ -6,6 +6,7 @@
 #include "runner/report/figures.hpp"
 #include "runner/report/html.hpp"
 #include "runner/report/plots.hpp"
+#include "runner/report/published_profiles.hpp"
 #include "runner/tables/decays.hpp"
 #include "runner/tables/profiles.hpp"
 #include "runner/text.hpp"
@@ -61,8 +62,10 @@ Bars solid_bars(const std::vector<GroupWithCurves>& groups) {
 }
 
 /// The range of the panels above, in which solid fractions of all grains have no bars.
-Range solid_range(const std::vector<GroupWithCurves>& groups) {
+Range solid_range(const std::vector<GroupWithCurves>& groups,
+                  const std::vector<PublishedPoints>& published) {
   std::vector<double> ends = shown_ends(solid_bars(groups));
+  append_values(published, false, ends);
   for (const GroupWithCurves& group : groups) {
     for (const MeanBin& bin : mean_profile(*group, profile_across(*group))) {
       ends.push_back(bin.solid_fraction.mean);
@@ -106,7 +109,8 @@ std::string measured_phi(const std::vector<GroupWithCurves>& groups) {
   return has_classes(groups) ? "φ of large grains" : "φ";
 }
 
-std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool with_all) {
+std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool with_all,
+                        const std::vector<PublishedPoints>& published) {
   std::vector<std::string> parts = {
       plot_part({bins_table, "panel", k + 1, "y", "large", "large_error", "points ls 20"})};
   if (with_all) {
@@ -116,6 +120,7 @@ std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool w
   if (fit.not_determined.empty()) {
     parts.push_back(cosine(fit, width) + " with lines ls 2 lw 1.4 notitle");
   }
+  append_published(k, false, published, parts);
   return plot_command(parts);
 }
 
@@ -123,7 +128,8 @@ std::string solid_panel(std::size_t k, const DecayFit& fit, double width, bool w
 constexpr const char* without_walls_style = "linespoints ls 1 lw 1.4 ps 0.3";
 constexpr const char* with_walls_style = "linespoints ls 5 lw 1.4 ps 0.3";
 
-std::string coordination_panel(std::size_t k, const Group& group) {
+std::string coordination_panel(std::size_t k, const Group& group,
+                               const std::vector<PublishedPoints>& published) {
   const auto curve = [&](const std::string& column, const char* style) {
     return plot_part({bins_table, "panel", k + 1, "y", column, column + "_error", style});
   };
@@ -131,11 +137,13 @@ std::string coordination_panel(std::size_t k, const Group& group) {
   if (group.job.box.y == Boundary::walls) {
     parts.insert(parts.begin(), curve("coordination_with_walls", with_walls_style));
   }
+  append_published(k, true, published, parts);
   return plot_command(parts);
 }
 
 std::string commands_of(Figure& figure, const std::vector<GroupWithCurves>& groups,
-                        const std::vector<DecayFit>& fits, const Axes& axes) {
+                        const std::vector<DecayFit>& fits,
+                        const std::vector<PublishedPoints>& published, const Axes& axes) {
   const bool with_all = has_classes(groups);
   std::vector<KeyEntry> key = {{"points ls 20", measured_phi(groups)}};
   if (std::any_of(fits.begin(), fits.end(),
@@ -149,16 +157,19 @@ std::string commands_of(Figure& figure, const std::vector<GroupWithCurves>& grou
     key.push_back({without_walls_style, "Z, walls not counted"});
     key.push_back({with_walls_style, "Z, walls counted"});
   }
+  append_key(published, key);
   const Panels panels(figure, groups.size(), {0.55, 0.45}, key, {.right = 16.0, .above = 26.0});
   std::string text = "set multiplot\n" + panels.key();
-  const std::string solid = range_command("y", solid_range(groups));
-  const std::string touching =
-      range_command("y", range_of(shown_ends(coordination_bars(groups)), 0.06));
+  const std::string solid = range_command("y", solid_range(groups, published));
+  std::vector<double> z_ends = shown_ends(coordination_bars(groups));
+  append_values(published, true, z_ends);
+  const std::string touching = range_command("y", range_of(z_ends, 0.06));
   const auto titles = titles_of(groups, panels.title_length(), axes);
   for (std::size_t k = 0; k < groups.size(); ++k) {
+    const double width = groups[k]->job.box.width;
     text += panels_across(panels, k, titles[k], *groups[k],
-                          solid + solid_panel(k, fits[k], groups[k]->job.box.width, with_all),
-                          touching + coordination_panel(k, *groups[k]));
+                          solid + solid_panel(k, fits[k], width, with_all, published),
+                          touching + coordination_panel(k, *groups[k], published));
   }
   return text;
 }
@@ -212,9 +223,10 @@ std::string left_out_bins_text(const std::vector<GroupWithCurves>& groups) {
 
 }  // namespace
 
-Figure profiles_figure(const Axes& axes) {
+Figure profiles_figure(const Axes& axes, const std::vector<Comparison>& comparisons) {
   Figure figure{.name = "profiles", .title = "Layers beside the walls", .caption = ""};
-  const std::vector<GroupWithCurves> groups = chosen_walled_groups(axes, most_profiles);
+  const std::vector<GroupWithCurves> groups =
+      chosen_walled_groups(axes, most_profiles, groups_with_published(comparisons));
   if (groups.empty()) return undrawn(std::move(figure), "no packing has settled");
   const std::set<BinsAcross> bins = bins_across(groups);
   if (bins == std::set{BinsAcross::slices_without_walls}) {
@@ -233,8 +245,13 @@ Figure profiles_figure(const Axes& axes) {
                    "." + left_out_bins_text(groups) + curve_text(bins) +
                    decays_text(groups, fits, axes) +
                    (few.empty() ? "" : few + " The others are in the folder's profiles.csv.");
+  const std::vector<PublishedPoints> published = published_of(groups, comparisons);
   figure.tables = {{bins_table, bins_csv(groups)}};
-  figure.commands = commands_of(figure, groups, fits, axes);
+  if (!published.empty()) {
+    figure.tables.push_back({published_profiles_table, published_csv(published)});
+    figure.caption += " Published profiles stand over the distance from the wall.";
+  }
+  figure.commands = commands_of(figure, groups, fits, published, axes);
   return figure;
 }
 

@@ -317,11 +317,11 @@ std::string published_section(const std::string& source,
   HtmlTable table{"published-values", source, {}, {}};
   table.headings = {{"family"}, {"quantity"}, {"published"}, {"measured"}, {"verdict"}};
   for (const Comparison& one : comparisons) {
-    table.rows.push_back({html_text(one.family), html_text(one.title),
-                          html_text(published_value(one.published)),
-                          html_text(one.along.empty() ? measured_value(one.measured)
-                                                      : counted(one.along.size(), "width")),
-                          html_text(verdict(one))});
+    table.rows.push_back(
+        {html_text(one.family), html_text(one.title), html_text(published_value(one.published)),
+         html_text(one.along.empty() ? measured_value(one.measured)
+                                     : counted(one.along.size(), name_of_each(one.published))),
+         html_text(verdict(one))});
   }
   return html_table(table);
 }

@@ -238,6 +238,71 @@ TEST_CASE("a width without a measured value is left out of a formula's row") {
   CHECK(rows[0].measured.not_determined.empty());
 }
 
+/// Spheres between walls 10 d apart, whose profile of phi has these points in a file.
+Reference with_profile(const std::vector<PublishedProfile::Point>& points, double width = 10.0) {
+  Reference reference;
+  const PublishedProfile profile{"Curve", "", points, {0.01}};
+  reference.families = {{{}, {{"phi", width, "Curve", std::nullopt, "by hand", {}, profile}}}};
+  return reference;
+}
+
+TEST_CASE("a published profile is set beside the measured one, point by point") {
+  const std::vector<Row> sweep = wall_sweep();
+  // Bins of 0.1 d with layers of 0.3 exp(-y / 1.4 d) cos(7 y), scattered by 0.001 / 2.
+  const auto layers = [](double y) { return 0.6 + 0.3 * std::exp(-y / 1.4) * std::cos(7 * y); };
+  const auto rows = compare_with(
+      with_profile({{0.25, layers(0.25)}, {1.05, layers(1.05) + 0.2}, {5.5, 0.6}}), analyse(sweep));
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].title == "profile of φ at W = 10 d");
+  REQUIRE(rows[0].along.size() == 2);
+  CHECK(rows[0].without_value == 1);  // beyond the middle
+  CHECK(rows[0].along[1].distance == 1.05);
+  constexpr double scatter = 0.003;  // three of a mean of two halves of two packings, and more
+  CHECK(*difference(rows[0].along[0]) == Approx(0.0).margin(scatter));
+  CHECK(*difference(rows[0].along[1]) == Approx(-0.2).margin(scatter));
+  CHECK(rows[0].along[0].published.range->error == 0.01);
+  CHECK(rows[0].group == 2);
+  const std::string verdict_text = verdict(rows[0]);
+  CHECK_THAT(verdict_text, Catch::StartsWith("agrees at 1 of 2 points, no value at 1 more; here "
+                                             "minus published: -0.") &&
+                               Catch::Contains(" root mean square, -0.") &&
+                               Catch::EndsWith(" at 0.25 d from the wall"));
+  const std::string text = comparison_text(with_profile({{0.25, 0.5}}), analyse(sweep));
+  CHECK_THAT(text, Catch::Contains("  profile of φ at W = 10 d") &&
+                       Catch::Contains("here, at 0.25 d from the wall: exact solid volume in bins "
+                                       "0.1 d wide"));
+}
+
+TEST_CASE("a published profile of a width that no packing has is not determined") {
+  const std::vector<Row> sweep = wall_sweep();
+  const auto rows = compare_with(with_profile({{0.25, 0.5}}, 7.0), analyse(sweep));
+  CHECK(rows[0].along.empty());
+  CHECK(rows[0].group == 0);
+  CHECK_THAT(comparison_text(with_profile({{0.25, 0.5}}, 7.0), analyse(sweep)),
+             Catch::Contains("not determined: this family has no packings between walls at W = 7 "
+                             "d\n"));
+}
+
+TEST_CASE("a formula of a profile is set beside those of all widths, unless it has one") {
+  const std::vector<Row> sweep = wall_sweep();
+  Reference reference = with_profile({}, 0.0);
+  Published& value = reference.families[0].values[0];
+  value.profile->formula = "0.6 + 0.3*exp(-y/1.4)*cos(7*y)";
+  const auto rows = compare_with(reference, analyse(sweep));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].title == "profile of φ at W = 5 d");
+  CHECK(rows[2].title == "profile of φ at W = 20 d");
+  CHECK(rows[2].along.size() == 200);
+  CHECK(rows[2].published.profile->points.size() == 200);
+  // Halfway between the middles of bins 0.1 d wide a line misses a wave of 0.9 d by 0.04 of it.
+  for (const Comparison& at : rows[2].along) CHECK(std::abs(*difference(at)) < 0.04 * 0.3 + 0.003);
+  value.width = 10.0;
+  CHECK(compare_with(reference, analyse(sweep)).size() == 1);
+  value.profile->formula = "2 + y";
+  CHECK_THAT(comparison_text(reference, analyse(sweep)),
+             Catch::Contains("not determined: the formula has no value that phi can be\n"));
+}
+
 TEST_CASE("values that differ by no more than the bound of settling agree, which is said") {
   Comparison row = comparison_of({0.6, 0.6, 0}, {0.602, 0.0001});
   CHECK(verdict(row) == "differs: +0.00200, 20.0 errors");

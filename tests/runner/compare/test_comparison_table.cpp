@@ -58,6 +58,7 @@ TEST_CASE("a row has both values, their difference in three ways and the verdict
                          {"published_error", "0.25"},
                          {"measured", "5.5"},
                          {"measured_error", "0"},
+                         {"distance", ""},
                          {"bias_bound", "0.125"},
                          {"difference", "0.5"},
                          {"relative_difference", "0.1"},
@@ -123,10 +124,32 @@ TEST_CASE("a formula has a row for each width, with its value there") {
   }
 }
 
-TEST_CASE("widths stand in the unit of the sweep, too") {
+TEST_CASE("a profile has a row for each point, with its distance from the wall") {
+  const std::vector<Row> sweep = wall_sweep();
+  Reference reference;
+  const PublishedProfile profile{"Curve", "", {{0.5, 0.4}, {1.25, 0.5}}, {0, 0.5}};
+  reference.families = {{{}, {{"phi", 10, "Curve", std::nullopt, "", {}, profile}}}};
+  const std::string table = comparison_csv(compare_with(reference, analyse(sweep)), {});
+  CHECK(cell_in(table, 1, "width") == "10");
+  CHECK(cell_in(table, 1, "distance") == "0.5");
+  CHECK(cell_in(table, 1, "published_low") == "0.4");
+  CHECK(cell_in(table, 1, "published_error") == "0.2");
+  CHECK(cell_in(table, 2, "distance") == "1.25");
+  CHECK(cell_in(table, 2, "published_high") == "0.5");
+  for (const std::size_t line : {1, 2}) {
+    const auto number = [&](const char* column) { return std::stod(cell_in(table, line, column)); };
+    CHECK(number("difference") == Approx(number("measured") - number("published_low")));
+  }
+}
+
+TEST_CASE("widths and distances stand in the unit of the sweep, too") {
   const Units units{2.0, "mm", {}};
   CHECK(rows_of_table(comparison_csv({z_at_ten()}, units))[0]["width_mm"] == "20");
-  CHECK(comparison_columns(units).back().name == "width_mm");
+  Comparison point = z_at_ten();
+  point.published.profile.emplace();
+  point.distance = 1.5;
+  CHECK(rows_of_table(comparison_csv({point}, units))[0]["distance_mm"] == "3");
+  CHECK(comparison_columns(units).back().name == "distance_mm");
   CHECK(comparison_columns().back().name == "measured_definition");
 }
 

@@ -20,6 +20,17 @@ TEST_CASE("formulas are read as sources print them, with d as the unit of length
         Approx(std::exp(-2.0) + std::numbers::pi).epsilon(1e-12));
 }
 
+TEST_CASE("a profile is a formula over the distance from the wall") {
+  const std::string mueller =
+      "0.365 + 0.22*d/D + (0.635 - 0.22*d/D)*J0((7.45 - 3.15*d/D)*y)*exp(-(0.315 - 0.725*d/D)*y)";
+  CHECK(fault_of_formula(mueller, FormulaOf::distance).empty());
+  CHECK(value_of_formula(mueller, 8.0, 0.0) == Approx(1.0).epsilon(1e-12));
+  // J0(2.404825557695773) = 0
+  CHECK(value_of_formula("J0(2.404825557695773*y)", 8.0, 1.0) == Approx(0.0).margin(1e-14));
+  CHECK(value_of_formula("J0(-y)", 8.0, 1.0) == value_of_formula("J0(y)", 8.0, 1.0));
+  CHECK_THAT(fault_of_formula(mueller), Catch::StartsWith("unknown name \"y\""));
+}
+
 TEST_CASE("a formula may have no number somewhere") {
   const std::string file = "1 - 2/3/D^3/sqrt(2/D - 1)";
   CHECK(fault_of_formula(file).empty());

@@ -99,6 +99,42 @@ TEST_CASE("groups of one width that differ in their label have one mean over all
   CHECK(phi.estimate.error == Approx(std::sqrt(squares) / 6.0));
 }
 
+TEST_CASE("a profile is linear between the middles of bins, the mean of both halves of a gap") {
+  std::vector<Row> rows;
+  for (const double shift : {-0.01, 0.01}) {
+    rows.push_back(settled_row(std::to_string(rows.size()), 2, 0.6, 5));
+    // Middles at 0.25, 0.75, 1.25 and 1.75 d; no grain has its centre in the second bin.
+    rows.back().outcome->result.profile_y = {0.5,
+                                             {{0.2 + shift, 0, 1, 0, 2, 3},
+                                              {0.6 + shift, 0, 0, 0, 0, 0},
+                                              {0.5 + shift, 0, 2, 0, 8, 8},
+                                              {0.4 + shift, 0, 1, 0, 4, 4}}};
+  }
+  const auto values_of = [&](const std::string& quantity, const std::vector<double>& distances) {
+    return measure_profile(quantity, 2, distances, families_in(rows).at(0)).values;
+  };
+  const auto phi = values_of("phi", {0.0, 0.25, 0.5, 0.75, 1.0, 1.1});
+  const std::vector<double> expected = {0.3, 0.3, 0.425, 0.55, 0.55};  // of 0.2 .. 0.6, 0.5 .. 0.4
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    INFO(k);
+    CHECK(phi[k].not_determined.empty());
+    CHECK(phi[k].estimate.value == Approx(expected[k]));
+    CHECK(phi[k].estimate.error == Approx(spread_of({0.19, 0.21}).error / std::sqrt(2.0)));
+  }
+  CHECK(phi[5].not_determined == "it lies beyond the middle");
+  CHECK(values_of("porosity", {0.5})[0].estimate.value == Approx(1 - 0.425));
+  CHECK(values_of("Z", {0.25})[0].estimate.value == Approx(3));  // 2 and 4
+  CHECK(values_of("Z", {0.5})[0].not_determined == "no grain has its centre there");
+  for (Row& row : rows) {
+    row.job.box = tube_of(2);
+    row.outcome->result.profile_from_walls = row.outcome->result.profile_y;
+  }
+  CHECK(values_of("phi", {0.5})[0].estimate.value == Approx(0.4));  // from the only wall
+  const auto nowhere = measure_profile("phi", 3, {0.5}, families_in(rows).at(0));
+  CHECK(nowhere.group == nullptr);
+  CHECK(nowhere.values[0].not_determined == "this family has no packings in tubes at D = 3 d");
+}
+
 TEST_CASE("a line that misses its points says that it does not hold") {
   const auto definition = [](const std::vector<Row>& rows) {
     return measure_quantity("C", 0, families_in(rows).at(0)).definition;

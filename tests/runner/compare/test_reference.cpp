@@ -208,6 +208,85 @@ TEST_CASE("a formula stands in place of the values at single widths") {
   CHECK(read(R"("formula": "W", "text": "")").text == "W");
 }
 
+TEST_CASE("a profile is a list of points over the distance from the wall") {
+  const auto read = [](const std::string& members) {
+    return reference_of(
+               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "porosity", )" +
+               members + "}]}]}")
+        .families.at(0)
+        .values.at(0);
+  };
+  const Published published = read(
+      R"("width": 7, "profile": [[0.5, 0.3], [0, 1], [1, 0.4]], "relative_error": 0.1, "text": "M")");
+  CHECK(published.text == "M: 3 points from 0 to 1 d ± 10 %");
+  CHECK(published.width == 7);
+  CHECK(published.profile->name == "M");
+  CHECK(published.profile->error.relative == 0.1);
+  REQUIRE(published.profile->points.size() == 3);
+  CHECK(published.profile->points[1].distance == 0.5);
+  CHECK(published.profile->points[1].value == 0.3);
+  CHECK(read(R"("width": 7, "profile": [[0.5, 0.3]])").text == "1 point from 0.5 to 0.5 d");
+  const auto told = [](const std::string& members) {
+    Lines lines =
+        told_of(R"({"source": "S", "families": [{"where": {}, "values": [{)" + members + "}]}]}");
+    for (std::string& line : lines) line.erase(0, line.find(" /families/0/values/0/") + 22);
+    return lines;
+  };
+  const std::string of_phi = R"("quantity": "phi", "width": 7, "profile": )";
+  CHECK(told(of_phi + "[]") ==
+        Lines{"profile: must be a list of points [distance from the wall in d, value], or a "
+              "formula over y, that distance, is an empty list"});
+  CHECK(told(of_phi + "[[0, 0.5], [1]]") ==
+        Lines{"profile/1: must be a point [distance from the wall in d, value], is [1]"});
+  CHECK(told(of_phi + "[[-1, 0.5]]").size() == 1);
+  CHECK(told(of_phi + "[[1, 50]]") ==
+        Lines{"profile/0: a share of the volume lies in [0, 1]; divide percentages by 100, is 50"});
+  CHECK(told(of_phi + R"([[1, 0.5]], "value": 0.5)") ==
+        Lines{"value: a profile is given, too; keep one of them"});
+  CHECK(told(R"("quantity": "reach", "width": 7, "profile": [[1, 0.5]])") ==
+        Lines{"quantity: profiles are of phi, porosity or Z, is reach"});
+  CHECK(told(R"("quantity": "phi", "profile": [[1, 0.5]])") ==
+        Lines{"quantity: phi needs a \"width\""});
+  CHECK(
+      told_of(
+          R"({"source": "S", "common": [{"quantity": "phi", "width": 7, "profile": [[1, 0.5]]}]})") ==
+      Lines{"r.json:1:60 /common/0/profile: profiles belong to \"families\"; { } as \"where\" "
+            "means all of them"});
+}
+
+TEST_CASE("a profile may be a formula over the distance from the wall, of which points are taken") {
+  const auto read = [](const std::string& members) {
+    return reference_of(
+               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "porosity", )" +
+               members + "}]}]}")
+        .families.at(0)
+        .values.at(0);
+  };
+  const Published line = read(R"("width": 4, "profile": "1 - y/D", "text": "line", "error": 0.01)");
+  CHECK(line.text == "line: 1 - y/D ± 0.01");
+  CHECK(line.profile->formula == "1 - y/D");
+  const auto points = points_at(4, line);
+  REQUIRE(points.size() == 40);  // every 0.05 d, up to the axis
+  CHECK(points.front().distance == 0.05);
+  CHECK(points.front().value == Approx(1 - 0.05 / 4));
+  CHECK(points.back().distance == 2);
+  CHECK(points.back().value == Approx(0.5));
+  CHECK(points_at(4, read(R"("profile": "1.5 - y")")).size() == 21);  // 0.5 to 1.5 d
+  const auto told = [](const std::string& profile) {
+    const Lines lines = told_of(
+        R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "phi", "width": 4, )"
+        R"("profile": ")" +
+        profile + "\"}]}]}");
+    return lines.empty() ? "" : lines.front().substr(lines.front().find("/profile: ") + 10);
+  };
+  CHECK(told("J0(y)*J0(-y)").empty());
+  CHECK(told("1 - D") == "a profile has y, the distance from the wall");
+  CHECK(told("y/D + y/W") ==
+        "a profile has either W, the gap between walls, or D, the diameter of a tube");
+  CHECK_THAT(told("x"), Catch::StartsWith("unknown name \"x\"; known are y, the distance from the "
+                                          "wall; W, the gap"));
+}
+
 TEST_CASE("an error is given as itself or as a share of the value, not as both") {
   const std::string at = "r.json:1:", place = " /common/0/relative_error";
   const auto told = [](const std::string& members) {
@@ -256,9 +335,10 @@ Family family_of(const std::string& parameters, const std::string& shape) {
 }
 
 bool describes_it(const std::string& where, const Family& family) {
-  return describes(
-      reference_of(R"({"source": "S", "families": [{"where": )" + where + "}]}").families.at(0),
-      family);
+  return describes(reference_of(R"({"source": "S", "families": [{"where": )" + where + "}]}")
+                       .families.at(0)
+                       .where,
+                   family);
 }
 
 TEST_CASE("values belong to the families whose parameters are those of `where`") {

@@ -463,6 +463,37 @@ TEST_CASE("the key of the layers has what is drawn", "[report]") {
                              "profiles.csv."));
 }
 
+TEST_CASE("published profiles are drawn into the layers of their groups", "[report]") {
+  std::vector<Row> rows = layered_rows(0.0);
+  for (const double width : {20.0, 30.0, 40.0}) {
+    rows.push_back(settled_row(std::to_string(rows.size()), width, 0.62, 6));
+  }
+  Reference reference;
+  const double width = rows.front().job.box.width;
+  const PublishedProfile porosity{"Mueller", "", {{0.5, 0.3}, {1.5, 0.45}}, {}};
+  reference.families = {
+      {{},
+       {{"porosity", width, "", std::nullopt, "", {}, porosity},
+        {"Z", width, "", std::nullopt, "", {}, PublishedProfile{"", "", {{2.5, 9.0}}, {}}}}}};
+  const Analysis analysis = analyse(rows);
+  const Figure figure =
+      figure_called(figures_of(rows, analysis, compare_with(reference, analysis)), "profiles");
+  REQUIRE(figure.tables.size() == 2);
+  const auto& [name, table] = figure.tables[1];
+  CHECK(name == "profiles-published.csv");
+  CHECK(cell_in(table, 1, "value") == "0.7");
+  CHECK(cell_in(table, 1, "name") == "Mueller");
+  CHECK(cell_in(table, 2, "y") == "1.5");
+  CHECK(cell_in(table, 3, "quantity") == "Z");
+  CHECK(cell_in(table, 3, "value") == "9");
+  CHECK(cell_in(table, 3, "panel") == "1");
+  CHECK_THAT(figure.commands,
+             Catch::Contains("title 'Mueller'") && Catch::Contains("title 'published'"));
+  CHECK_THAT(figure.caption,
+             Catch::Contains(" Published profiles stand over the distance from the wall.") &&
+                 Catch::Contains(" 1 of 4 groups are shown."));
+}
+
 TEST_CASE("Z of layers has bars, and is left out where fewer than three packings tell it",
           "[report]") {
   std::vector<Row> rows = layered_rows(0.0);
@@ -639,7 +670,9 @@ TEST_CASE("the files of all figures have the names by which they are removed", "
   reference.families = {
       {{},
        {{"phi", 0, "", std::nullopt, "", PublishedFormula{"0.6 + 0/W", "a", 4, 16, {}}},
-        {"phi_bulk", 0, "", Published::Range{0.6, 0.65, 0.0}, "", std::nullopt}}}};
+        {"phi_bulk", 0, "", Published::Range{0.6, 0.65, 0.0}, ""},
+        {"phi", wall_rows().front().job.box.width, "", std::nullopt, "", std::nullopt,
+         PublishedProfile{"b", "", {{0.5, 0.6}}, {}}}}}};
   add(wall_rows(), reference);
   add(random_rows(), {});
   add({mixture_row("a", 4), polyhedra_row("b", 5)}, {});
