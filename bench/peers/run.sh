@@ -101,7 +101,8 @@ run_grainsweep() {
   "sweep": [ { "label": "$accuracy" } ] }
 JSON
   # Exit code 1 is a bed that missed its tolerances: the row says so.
-  timed "$name" "$build/runner/grainsweep" run "$out/$name.json" --out "$results" --threads 1 ||
+  timed "$name" "$build/runner/grainsweep" run "$out/$name.json" --out "$results" \
+    --threads 1 --no-report ||
     status=$?
   ((status <= 1)) || stop "grainsweep failed; see $out/$name.log"
   "$build/runner/grainsweep" export "$results" --format csv >/dev/null
