@@ -114,8 +114,8 @@ constexpr StageRule ease = {.name = "ease",
                             .done_after = 0.8};
 
 /// Half steps without momentum: gaps close to far below those that count, and the bed is tested.
-/// One that fails eases on. More such steps close more of the gaps that count (bench/README.md,
-/// Protocol and height): a longer creep has more of them.
+/// One that fails eases on. More such steps close more of the gaps that count (bench/tried.md,
+/// Quench): a longer creep has more of them.
 constexpr StageRule quench = {.name = "quench",
                               .end = StageEnd::rest,
                               .step = 0.5,
