@@ -133,9 +133,8 @@ int perform(const CompareOptions& options) {
              "by that of the others of the family; those of profiles from their group alone.\n"
              "They are wider where few packings tell them. Values agree within " +
              fixed(agreement_limit, 0) +
-             " standard errors of both sides together (ours alone where\nthe source has none) and "
-             "the "
-             "bound of settling, where that was measured.\n" +
+             " standard errors\nof both sides together (ours alone where the source has none) and "
+             "the bound of\nsettling, where that was measured.\n" +
              comparison_text(reference, analysis);
   return end;
 }

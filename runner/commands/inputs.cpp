@@ -52,6 +52,7 @@ Sweep sweep_with_notes(const std::string& file) {
     Diagnostics told = unreachable_wishes(sweep);
     for (Diagnostic& note : notes_on_far_shapes(sweep)) told.push_back(std::move(note));
     for (Diagnostic& note : notes_on_low_beds(sweep)) told.push_back(std::move(note));
+    for (Diagnostic& note : notes_on_unbounded_wishes(sweep)) told.push_back(std::move(note));
     return told;
   };
   SweepReading reading = reading_or_refusal(file, check);

@@ -109,7 +109,7 @@ std::string row_text(const Comparison& row) {
 /// The row of a formula or a profile.
 std::string curve_text(const Comparison& row) {
   const std::string& source = row.published.definition;
-  return "  " + pad_right(row.title, 38) + row.published.text + "\n      " +
+  return "  " + pad_right(row.title, 38) + " " + row.published.text + "\n      " +
          (row.along.empty() ? "not determined: " + row.measured.not_determined : verdict(row)) +
          "\n" + (source.empty() ? "" : "      published: " + source + "\n") +
          (row.along.empty() ? ""

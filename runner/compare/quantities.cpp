@@ -240,12 +240,17 @@ std::vector<Measured> profile_of(const std::string& quantity, const std::vector<
   const std::vector<MeanBin> bins = mean_profile(*with_curves, profile_across(*with_curves));
   const bool is_z = quantity == "Z";
   const auto spread = is_z ? &MeanBin::coordination : &MeanBin::solid_fraction;
+  constexpr double rounding = 1e-9;  // d
   std::vector<Measured> values;
   for (const double distance : distances) {
     Measured& one = values.emplace_back();
+    const double first = bins.empty() ? 0.0 : (bins.front().low + bins.front().high) / 2.0;
     if (bins.empty()) {
       one.not_determined = "no packing has settled";
-    } else if (distance > group.job.box.width / 2.0) {
+    } else if (distance < first - rounding) {
+      one.not_determined = "it lies nearer to the wall than the middle of the first bin, " +
+                           short_cell(first) + " d; measure.bin_width sets their width";
+    } else if (distance > group.job.box.width / 2.0 + rounding) {
       one.not_determined = "it lies beyond the middle";
     }
     if (!one.not_determined.empty()) continue;
@@ -255,7 +260,7 @@ std::vector<Measured> profile_of(const std::string& quantity, const std::vector<
     one.definition =
         std::string(is_z ? "neighbours of grains whose centres lie there, walls not counted"
                          : "exact solid volume") +
-        " in bins " + short_cell(bins.front().high - bins.front().low) +
+        ", in bins " + short_cell(bins.front().high - bins.front().low) +
         " d wide, of the measured slab" +
         (group.job.box.is_tube ? "" : ", mean of both halves of the gap");
   }

@@ -396,6 +396,27 @@ Diagnostics unreachable_wishes(const Sweep& whole) {
   return diagnostics;
 }
 
+Diagnostics notes_on_unbounded_wishes(const Sweep& whole) {
+  if (!grows(whole)) return {};
+  std::map<std::string, std::size_t> groups_at;  // by the place of the request
+  for (const Places& group : groups_in(whole)) {
+    const Job& job = whole.jobs[group.front()];
+    const ErrorWish wish{std::max(job.wish.solid_fraction, job.fit_wish.phi_bulk),
+                         std::max(job.wish.coordination, job.fit_wish.z_bulk)};
+    if (!wish.is_given() || is_bounded(job, wish)) continue;
+    const auto& pointers = whole.wish_pointers;
+    ++groups_at[job.block < pointers.size() ? pointers[job.block] : ""];
+  }
+  Diagnostics notes;
+  for (const auto& [place, count] : groups_at) {
+    notes.push_back({place,
+                     "what settling does to the means of " + counted(count, "parameter set") +
+                         " was not measured; their errors will be those of the scatter alone",
+                     Anchor::key, "", true});
+  }
+  return notes;
+}
+
 std::string growth_text(const std::vector<Cost>& most) {
   return "Groups grow until their errors are as asked for: at most " +
          counted(most.size(), "packing") + ", " + duration_text(total_cpu_seconds(most)) + " CPU";

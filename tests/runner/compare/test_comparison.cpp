@@ -269,7 +269,7 @@ TEST_CASE("a published profile is set beside the measured one, point by point") 
                                Catch::EndsWith(" at 0.25 d from the wall"));
   const std::string text = comparison_text(with_profile({{0.25, 0.5}}), analyse(sweep));
   CHECK_THAT(text, Catch::Contains("  profile of φ at W = 10 d") &&
-                       Catch::Contains("here, at 0.25 d from the wall: exact solid volume in bins "
+                       Catch::Contains("here, at 0.25 d from the wall: exact solid volume, in bins "
                                        "0.1 d wide"));
 }
 

@@ -312,6 +312,24 @@ TEST_CASE("wishes below the bias of settling are refused, with what it is") {
   CHECK(unreachable_wishes({"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})}).empty());
 }
 
+TEST_CASE("wishes that no bound of settling is known for are noted, once where they are written") {
+  Sweep whole{"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})};
+  for (const Job& job : growing_group("b", 6.0, 20, {0.01, 0.0})) whole.jobs.push_back(job);
+  whole.wish_pointers = {"/replicates/until"};
+  CHECK(notes_on_unbounded_wishes(whole).empty());
+  for (Job& job : whole.jobs) job.spec.accuracy.creep_steps = 77;  // no preset's
+  const Diagnostics notes = notes_on_unbounded_wishes(whole);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].is_note);
+  CHECK(notes[0].pointer == "/replicates/until");
+  CHECK(notes[0].message ==
+        "what settling does to the means of 2 parameter sets was not measured; their errors will "
+        "be those of the scatter alone");
+  Sweep slopes = fit_sweep(10, {0, 0.01, 0, 0});  // of C, of which no bound is known anyway
+  for (Job& job : slopes.jobs) job.spec.accuracy.creep_steps = 77;
+  CHECK(notes_on_unbounded_wishes(slopes).empty());
+}
+
 TEST_CASE("a refused wish names the preset that has the bound, also of a changed precision") {
   std::vector<Job> jobs = growing_group("a", 5.0, 20, {0.001, 0.5});
   for (Job& job : jobs) job.spec.accuracy.precision = Precision::f64;
