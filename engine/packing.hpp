@@ -1,8 +1,9 @@
 // One packing from its specification to its measured values: the whole story of a job.
 //
 // `make_packing` is a pure function of the specification: same spec, same bits, whatever thread or
-// instruction set runs it; last digits of measured values may differ between C libraries
-// (engine/README.md). It reads no file and no clock, prints nothing and starts no thread.
+// instruction set runs it. With another C library last digits of measured values may differ and, in
+// rare cases, a comparison with a tolerance comes out otherwise (engine/README.md). It reads no
+// file and no clock, prints nothing and starts no thread.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
 // Functions of <cmath>, correctly rounded (by MPFR): the same bits on every processor and with
 // every C library. (glibc's own functions give other bits where the processor has fused
 // multiply-adds.) A bed is chaotic: a start that differs by one last digit comes out as another
-// bed. So everything that makes grains and shapes uses these. A call takes 1 to 3 us; measurements
-// of a bed use those of <cmath>.
+// bed. So everything that makes grains and shapes uses these, except for the order of a face's
+// corners (engine/shape/hull.cpp). A call takes 1 to 3 us; all else uses those of <cmath>.
 #pragma once
 
 namespace grainsweep::portable {

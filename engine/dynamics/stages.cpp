@@ -170,7 +170,7 @@ constexpr StageRule turning[] = {
      .energy = 1e-2,
      .usual_steps = 110,
      .done_after = 0.4},
-    // Full steps.
+    // Full steps in beds of up to 10 d.
     {.name = "creep",
      .by_depth = true,
      .inertia = Inertia::damped,
