@@ -36,14 +36,16 @@ struct Imbalance {
   double max = 0.0;
 };
 
-/// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d.
+/// How far from rest a bed is. Forces in m g, lengths in d, energies in m g d. At exact rest, which
+/// is not found by steps, the first three are 0, and `imbalance` is what the forces found leave.
 struct RestReport {
   /// How well the last step was solved, motion of the bed included: worst residual of a row, in m
   /// g, or in weights of its lighter grain where that is lighter than m.
   double step_residual = 0.0;
   double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (dx/dt)^2, m g d, and of turning, with
                                 ///< the inertia of hold_turning
-  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d
+  double largest_motion = 0.0;  ///< largest displacement of a grain in the last step, d; of
+                                ///< polyhedra also by its turn, at the circumradius
   double overlap_mean = 0.0;    ///< mean over force-bearing contacts of max(0, -gap), d
   double overlap_max = 0.0;     ///< deepest overlap, d
   /// Force-bearing contacts closed to 1e-4 d, walls and floor included, but not those of a sphere
@@ -297,7 +299,8 @@ struct Progress {
       {};  ///< the packing as bytes; only during the call that passed it
 };
 
-/// Called after every step or two; false stops the packing, whose status is then `cancelled`.
+/// Called after every step or two, and before each round of a search for exact rest and within long
+/// ones, while `step` stays as it is; false stops the packing, whose status is then `cancelled`.
 using KeepGoing = std::function<bool(const Progress&)>;
 
 }  // namespace grainsweep

@@ -96,7 +96,8 @@ class StateReader {
 /// `payload` with a header; `kind` tells states apart that must not be taken for each other.
 std::string sealed(std::uint64_t kind, std::string_view payload);
 
-/// The payload of sealed bytes; nothing if they are torn, changed, of another format or kind.
+/// The payload of sealed bytes, which must outlive it; nothing if they are torn, changed, of
+/// another format or kind.
 std::optional<std::string_view> unsealed(std::uint64_t kind, std::string_view bytes);
 
 }  // namespace grainsweep

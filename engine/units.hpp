@@ -2,7 +2,8 @@
 //
 // clang-format off
 //   length  d              mean diameter of the large grains, or one of those of a distribution
-//   mass    rho pi/6 d^3   a sphere of diameter d; a sphere of radius r has mass (2 r)^3
+//   mass    rho pi/6 d^3   a sphere of diameter d; a sphere of radius r has mass (2 r)^3.
+//                          Of polyhedra: a grain of scale 1, of a mixture's first component
 //   time    sqrt(d / g)
 //   force   m g            weight of a grain of mass 1
 // clang-format on

@@ -1,7 +1,8 @@
 // Corners and faces of a convex hull, many at a time; see engine/narrow/separating_axes.hpp.
 //
 // Columns hold one number of each item and must be readable up to a multiple of block_width. Beyond
-// the items, points are 0, which lies within a hull, and offsets of planes are infinite.
+// the items, points of `farthest` are 0, which lies within a hull, offsets of planes are infinite,
+// and all others are any finite numbers.
 #pragma once
 
 #include <cstddef>

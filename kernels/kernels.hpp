@@ -18,9 +18,11 @@
 
 namespace grainsweep {
 
-/// Spheres sorted by the cells of a uniform grid. The grid has one layer of border cells on every
-/// side; on periodic axes these hold shifted copies, so that no search ever wraps.
-/// Columns must be readable `block_width` entries past the last sphere.
+/// Spheres sorted by the cells of a uniform grid. Along each axis cells are no narrower than the
+/// largest diameter and `reach` together, or there is only one: only adjacent cells are searched.
+/// The grid has one layer of border cells on every side; on periodic axes these hold shifted
+/// copies, so that no search ever wraps. Columns must be readable `block_width` entries past the
+/// last sphere.
 struct SphereGrid {
   const float* x;  ///< d, relative to the grid's origin
   const float* y;
@@ -37,7 +39,7 @@ struct SphereQueries {
   const float* x;  ///< d
   const float* y;
   const float* z;
-  const float* radius;  ///< d; no larger than half a cell of the grid
+  const float* radius;  ///< d; with the grid's largest one and its reach no wider than a cell
   const std::int32_t* grain;
   const std::int32_t* cell;  ///< the inner cell of the grid that a sphere lies in or is nearest to
   std::size_t count;

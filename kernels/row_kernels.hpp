@@ -1,4 +1,5 @@
-// Rows of sphere contacts and the sweeps of the solver over them.
+// Rows of sphere contacts and the sweeps of the solver over them. Masses are what resists motion,
+// which is not always what weighs (engine/dynamics/inertia.hpp).
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,8 @@ namespace grainsweep {
 /// height.
 inline constexpr double high_from = 100.0;
 
-/// Whether steps in f32 solve for changes. Those of polyhedra never do.
+/// Whether steps in f32 solve for changes, in stages that carry (StepSettings::carries). Those of
+/// polyhedra never do.
 inline bool is_high(const SphereBed& bed) { return top_of(bed) > high_from; }
 inline bool is_high(const PolyhedronBed&) { return false; }
 

@@ -1,10 +1,10 @@
-// The inertia of deep grains while their bed creeps.
+// The inertia of deep grains while their bed creeps, or spheres ease on.
 //
 // What presses a grain is the weight above it, and a force that a solve has not found moves a grain
 // by that force over its inertia. In a high bed deep grains would stray furthest, and sweeps would
 // have to find their forces to a smaller and smaller share of what they carry, the higher the bed.
-// So while it creeps inertia grows with depth: all grains creep alike, and a step strays as far if
-// each force is found to about the same share of what it carries. Weights stay what they are; the
+// So meanwhile inertia grows with depth: all grains creep alike, and a step strays as far if each
+// force is found to about the same share of what it carries. Weights stay what they are; the
 // moments of inertia of polyhedra change like their inertia.
 //
 // A step depends on its length squared over the inertia alone. So grains at the foot keep the
@@ -28,7 +28,8 @@ inline constexpr double even_depth = 10.0;
 /// Length of a step in a bed of that height, d, over that in a low one.
 double shortened_step(double height);
 
-/// Gives grains in a bed of that height, d, an inertia that grows with their depth.
+/// Gives grains in a bed of that height, d, an inertia that grows with their depth; up to
+/// even_depth that of their mass. Sets the moments of inertia of polyhedra (root_inertia), too.
 void set_inertia_by_depth(double height, SphereBed& bed);
 void set_inertia_by_depth(double height, PolyhedronBed& bed);
 

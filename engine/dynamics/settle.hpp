@@ -9,7 +9,8 @@
 // engine/dynamics/stages.cpp says what a step is like in each stage, and why.
 //
 // How loosely the fall is solved is part of how a bed was packed, because the errors of loose
-// solves act like tapping: see engine/dynamics/presets.hpp.
+// solves act like tapping: see engine/dynamics/sleep.hpp, and closer_where_narrow in
+// engine/dynamics/stages.hpp.
 #pragma once
 
 #include <string>
@@ -39,7 +40,7 @@ struct SettleReport : BedForces {
 };
 
 /// Settles `bed`, whose numbers must be finite; if they cease to be, it ends at once and the bed is
-/// never called settled. `keep_going` is asked after every step or two.
+/// never called settled. When `keep_going` is asked: see KeepGoing.
 /// `saved`: bytes that Progress::save gave for the same bed and accuracy, from which to go on;
 /// bytes of another number or kind of grains or another precision are ignored.
 template <class Kind>

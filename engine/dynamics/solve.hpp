@@ -5,7 +5,8 @@
 // Its dual is A p + w_free >= 0, p >= 0, p . (A p + w_free) = 0 with A = H^T M^-1 H. The residual
 // of a row is |min(p, w / A_kk)| / dt^2, in m g: the force by which it misses balance, in weights
 // of the lighter grain where that is lighter than m. For spheres, A_kk = 1/m_a + 1/m_b; bodies add
-// the squares of their levers (kernels/body_kernels.hpp).
+// the squares of their levers (kernels/body_kernels.hpp). Masses here are inertias: in stages by
+// depth they differ from what weighs (engine/dynamics/inertia.hpp).
 #pragma once
 
 #include <limits>

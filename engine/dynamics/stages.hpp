@@ -30,7 +30,8 @@ struct StageRule {
   const char* name = "";
   StageEnd end = StageEnd::steps;
   double step = 1.0;      ///< in Accuracy::step
-  bool by_depth = false;  ///< inertia grows with depth (engine/dynamics/inertia.hpp)
+  bool by_depth = false;  ///< inertia grows with depth, and high beds take shorter steps
+                          ///< (engine/dynamics/inertia.hpp)
   Inertia inertia = Inertia::none;
   // A step that strays by less than one of these is solved:
   double path = 0.0;           ///< so many times Accuracy::path_tolerance
@@ -41,9 +42,9 @@ struct StageRule {
   bool carries = false;        ///< impulses begin such that they carry a tall bed
   double correction = 0.0;     ///< share of an overlap that a step repairs
   double near = 0.0;           ///< pairs with a smaller gap are rows, d
-  double margin = 0.0;         ///< candidates reach this much further, d
+  double margin = 0.0;         ///< as in StepSettings, d
   int steps_on_contacts = 1;   ///< so many steps are taken on contacts found once
-  // Most iterations a step: the sum of
+  // Iterations a step (Accuracy says when there are more): the sum of
   double fall_iterations = 0.0;  ///< so many times Accuracy::fall_iterations and
   double rest_iterations = 0.0;  ///< so many times Accuracy::rest_iterations
   int closer = 1;  ///< times as many for a bed that is carried, if the stage looks at one

@@ -47,7 +47,7 @@ struct StepSettings {
 struct StepReport {
   int steps = 0;
   SolveReport solve;            ///< of the last step, except iterations; residuals in m g
-  double kinetic_energy = 0.0;  ///< mean per grain of 1/2 m (u/dt)^2, m g d
+  double kinetic_energy = 0.0;  ///< mean of 1/2 m (u/dt)^2 of the grains awake, m g d
   /// Root mean square motion of the grains awake, weighted by mass, d; turning counts by its
   /// energy.
   double mean_motion = 0.0;

@@ -26,8 +26,8 @@ struct BondOrder {
   double local = 0.0;   ///< of each grain's bonds, mean over the slab's grains that have any
 };
 
-/// Of the grains whose centre lies in the slab; `near` must hold all pairs with a gap below
-/// longest_bond_gap. NaN without bonds.
+/// Of the grains whose centre lies in the slab; `near` must hold all pairs with a gap below their
+/// bond_gap. NaN without bonds.
 BondOrder bond_order(const Grains& bed, const Touching& near, const Slab& slab);
 
 }  // namespace grainsweep

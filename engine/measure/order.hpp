@@ -20,7 +20,7 @@ double share_with_contacts(const Grains& bed, const Touching& touching, const Sl
 double segregation(const Grains& bed, const Slab& slab, double small_below);
 
 /// Everything in Order, and the curves of distances and forces. `near` must hold all pairs and
-/// walls with a gap below the settings' tolerance, and all pairs with one below longest_bond_gap.
+/// walls with a gap below the settings' tolerance, and all pairs with one below their bond_gap.
 Order measure_order(const Grains& bed, const Touching& near,
                     const std::vector<PairForce>& pair_forces, const Slab& slab,
                     const ProfileSettings& settings, Curves& curves);

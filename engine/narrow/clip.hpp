@@ -18,7 +18,7 @@ void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 
 struct Segment {
-  Vector from, to;
+  Vector from, to;  ///< frame of a, d
 };
 
 /// Of the edges of one shape along a direction (index of edge_directions), the one that reaches
@@ -26,7 +26,7 @@ struct Segment {
 Segment farthest_edge(const ShapePair& pair, Of which, std::int32_t direction, const Vector& n);
 /// The shortest line between two segments.
 struct Closeness {
-  Vector midway;
+  Vector midway;    ///< frame of a, d
   double distance;  ///< d
 };
 

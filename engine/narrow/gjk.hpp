@@ -1,8 +1,9 @@
 // The closest points of two convex shapes: GJK with signed volumes.
 //
 // Gilbert, Johnson, Keerthi 1988; the sub-algorithm of Montanari, Petrinic, Barbieri 2017 (signed
-// volumes). f64 throughout. Works for any convex shape. Where rounding leaves a doubt whether the
-// shapes overlap the separating axes decide.
+// volumes). f64 throughout. Works for any convex shape but spheres (ConvexShape::is_ball), which it
+// would take for their centres. Where rounding leaves a doubt whether the shapes overlap the
+// separating axes decide.
 #pragma once
 
 #include "engine/narrow/shape_pair.hpp"

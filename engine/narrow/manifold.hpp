@@ -93,9 +93,11 @@ PairContact touch(const ShapePair& pair, const TouchSettings& settings, PairMemo
 PairContact touch(const ShapePair& pair, const TouchSettings& settings, const ContactAxes& axes,
                   ClipColumns& columns, std::vector<ContactPoint>& points);
 
-/// Appends every vertex of the grain whose gap to the wall is below `margin`, or the point of a
-/// sphere that is nearest to it; returns their number. Positions are those of the points in the
-/// frame of the grain, about its centre, d.
+/// Appends every vertex of the grain whose gap to the wall is no more than `margin`, or the point
+/// of a sphere that is nearest to it; returns their number. Positions are those of the points in
+/// the frame of the grain, about its centre, d. A round wall is taken for the plane that touches it
+/// beside the grain's centre: right for spheres, for polyhedra see touch_wall in
+/// engine/narrow/polyhedra.hpp.
 std::size_t touch_wall(const ConvexShape& shape, const Pose& pose, const Wall& wall, double margin,
                        std::vector<ContactPoint>& points);
 

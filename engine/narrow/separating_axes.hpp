@@ -92,9 +92,10 @@ struct AxisColumns {
 /// Separation along the unit vector `normal` from a to b, d.
 double separation_along(const ShapePair& pair, const Vector& normal);
 
-/// The best axes, f64, of every face and every pair of edges that can be the best. Two pinacoids
-/// take their widths in closed form and all 44 axes. `guess` is an axis near to the best one, such
-/// as that of the last step, or zero: it saves time and changes nothing; so do candidates.
+/// The best axes, f64, of every face and every pair of edges that can be the best. Neither grain
+/// may be a sphere (has_ball): it has no faces. Two pinacoids take their widths in closed form and
+/// all 44 axes. `guess` is an axis near to the best one, such as that of the last step, or zero: it
+/// saves time and changes nothing; so do candidates.
 ContactAxes separating_axes(const ShapePair& pair, const Vector& guess, AxisCandidates& candidates,
                             AxisColumns& columns);
 

@@ -62,7 +62,9 @@ inline constexpr double open_gap = 1e6;
 
 /// How a contact is closed with the grains where they are now.
 struct Closure {
-  double gap = 0.0;     ///< least of its points, d; of polyhedra infinite if above closed_gap
+  /// Least of its points, of two polyhedra at least PairContact::parted, d; of polyhedra infinite
+  /// if above closed_gap.
+  double gap = 0.0;
   int constraints = 0;  ///< 1 at a point, 2 along a line, 3 over an area; 0 if it is open
   /// Further directions in which it holds because its normal turns: 1 for a sphere at a round wall,
   /// which goes back to where the wall is farthest; for a polyhedron that a sphere pushes, 2 on a

@@ -62,8 +62,8 @@ struct Grains {
   /// move.
   std::vector<std::uint8_t> asleep;
   std::size_t first_awake = 0;  ///< all grains before it sleep
-  /// Mass over inertia of each grain while the bed creeps (engine/dynamics/inertia.hpp), at least
-  /// 1; empty if inertia is mass.
+  /// Mass over inertia of each grain while the bed creeps, or spheres ease on
+  /// (engine/dynamics/inertia.hpp), at least 1; empty if inertia is mass.
   std::vector<double> lightness;
 
   std::size_t subdomains = 1;  ///< max_subdomains of the grains
