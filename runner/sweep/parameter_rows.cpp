@@ -161,7 +161,9 @@ Rows accuracy_rows() {
       row<&S::accuracy, &A::momentum>("accuracy.momentum", Interval{0, 1, false, true},
                                       "share of the last displacement carried on, 0 to 1"),
       row<&S::accuracy, &A::fall_iterations>("accuracy.fall_iterations", Interval{1, 1000000},
-                                             "most solver iterations per step of fall and creep"),
+                                             "most solver iterations per step of fall, "
+                                             "creep and ease; doubled, up to 20,000, while "
+                                             "they leave too large a residual"),
       in("d",
          row<&S::accuracy, &A::path_tolerance>(
              "accuracy.path_tolerance", Interval{1e-9},
@@ -178,9 +180,12 @@ Rows accuracy_rows() {
                                          "as many and 60; before they are tested for rest, spheres "
                                          "take a 24th as many without momentum"),
       row<&S::accuracy, &A::rest_iterations>("accuracy.rest_iterations", Interval{1, 1000000},
-                                             "most solver iterations per step at rest, or 1.5 for "
-                                             "each mean diameter of height if that "
-                                             "is more; spheres take up to twice as many")};
+                                             "most solver iterations per step at rest, or "
+                                             "1.5 for each mean diameter of height if that "
+                                             "is more; spheres take up to twice as many; "
+                                             "doubled while they leave too large a "
+                                             "residual, once in f32, to 16 times as many "
+                                             "in f64")};
 }
 
 /// What a bed at rest keeps.
