@@ -293,7 +293,7 @@ void write_tables(const std::string& folder, const Provenance& provenance,
   replace_file(folder + "/fit_points.csv", fit_points_csv(families, units));
   write_curve_tables(folder, analysis, units);
   replace_file(folder + "/columns.csv",
-               columns_csv(all_columns(further_tolerances(rows), varied_of(groups), units)));
+               columns_csv(all_columns(further_tolerances(groups), varied_of(groups), units)));
   write_provenance(folder, provenance, rows);
 }
 
@@ -326,7 +326,7 @@ std::vector<ColumnText> all_columns(const std::vector<double>& tolerances, const
     all.insert(all.end(), some.begin(), some.end());
   };
   add(described("packings.csv", packings_columns(tolerances, varied, units)));
-  add(described("groups.csv", groups_columns(varied, units)));
+  add(described("groups.csv", groups_columns(tolerances, varied, units)));
   for (const CurveTable& table : curve_tables(varied, units)) add(table.columns);
   add(fits_columns(units));
   add(fit_points_columns(varied, units));

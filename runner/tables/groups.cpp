@@ -262,6 +262,17 @@ std::string as_in_jobs(const nlohmann::json& value) {
   return text + brackets[1];
 }
 
+/// Walls not counted; nothing where its packings did not measure it.
+Spread coordination_at(double tolerance, const Group& group) {
+  std::vector<double> values;
+  for (const Outcome& outcome : group.settled) {
+    for (const Coordination& at : outcome.result.coordination) {
+      if (at.gap_tolerance == tolerance) values.push_back(at.between_grains);
+    }
+  }
+  return spread_of(std::move(values));
+}
+
 }  // namespace
 
 std::string parameters_of_family(const JobFacts& job, bool is_over_squares) {
@@ -438,7 +449,19 @@ Columns<Group> group_line_columns(const Varied& varied) {
   return columns;
 }
 
-Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
+std::vector<double> further_tolerances(const std::vector<Group>& groups) {
+  std::vector<double> tolerances;
+  for (const Group& group : groups) {
+    const auto& own = group.job.measure.gap_tolerances;
+    if (!own.empty()) tolerances.insert(tolerances.end(), own.begin() + 1, own.end());
+  }
+  std::sort(tolerances.begin(), tolerances.end());
+  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
+  return tolerances;
+}
+
+Columns<Group> groups_columns(const std::vector<double>& further_tolerances, const Varied& varied,
+                              const GivenUnits& units) {
   Columns<Group> columns = group_key_columns();
   append(columns,
          job_columns({"job", "label", "shape", "length", "width", "boundary_x", "boundary_y",
@@ -454,6 +477,11 @@ Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
         "standard error of the mean, from the variance of replicates, moderated by that of the "
         "others of the family";
   }
+  for (const double tolerance : further_tolerances) {
+    append_spread(columns, "coordination_at_" + cell(tolerance), "",
+                  "coordination at a gap tolerance of so many d",
+                  [=](const Group& group) { return coordination_at(tolerance, group); });
+  }
   append(columns, bias_columns());
   append(columns, varied_columns(varied));
   append(columns, job_columns({"parameters"}), job_of_group);
@@ -463,7 +491,8 @@ Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units) {
 }
 
 std::string groups_csv(const std::vector<Group>& groups, const GivenUnits& units) {
-  const Columns<Group> columns = groups_columns(varied_of(groups), units);
+  const Columns<Group> columns =
+      groups_columns(further_tolerances(groups), varied_of(groups), units);
   std::string text = header_line(columns);
   for (const Group& group : groups) text += row_line(columns, group);
   return text;

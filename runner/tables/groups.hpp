@@ -201,7 +201,13 @@ void append_spread(Columns<Item>& columns, const std::string& name, const std::s
                      [=](const Item& item) { return cell(spread(item).error); }});
 }
 
-Columns<Group> groups_columns(const Varied& varied, const GivenUnits& units = {});
+/// Every gap tolerance that some group has behind its first one, ascending.
+std::vector<double> further_tolerances(const std::vector<Group>& groups);
+
+/// Columns coordination_at_<gap> hold the means at further gap tolerances, d, with errors from the
+/// replicates of each group alone.
+Columns<Group> groups_columns(const std::vector<double>& further_tolerances, const Varied& varied,
+                              const GivenUnits& units = {});
 
 /// The whole file.
 std::string groups_csv(const std::vector<Group>& groups, const GivenUnits& units = {});

@@ -85,22 +85,11 @@ Columns<PackingLine> packings_columns(const std::vector<double>& further_toleran
   return columns;
 }
 
-std::vector<double> further_tolerances(const std::vector<Row>& rows) {
-  std::vector<double> tolerances;
-  for (const Row& row : rows) {
-    const auto& own = row.job.measure.gap_tolerances;
-    if (!own.empty()) tolerances.insert(tolerances.end(), own.begin() + 1, own.end());
-  }
-  std::sort(tolerances.begin(), tolerances.end());
-  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
-  return tolerances;
-}
-
 void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
                         const GivenUnits& units,
                         const std::function<void(const std::string&)>& write) {
   const Columns<PackingLine> columns =
-      packings_columns(further_tolerances(rows), varied_of(groups), units);
+      packings_columns(further_tolerances(groups), varied_of(groups), units);
   const std::vector<std::size_t> numbers = group_numbers(rows);
   write(header_line(columns));
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -22,9 +22,6 @@ struct PackingLine {
 Columns<PackingLine> packings_columns(const std::vector<double>& further_tolerances,
                                       const Varied& varied, const GivenUnits& units = {});
 
-/// Every gap tolerance that is not first in all of the jobs, ascending.
-std::vector<double> further_tolerances(const std::vector<Row>& rows);
-
 /// Gives `write` the file, a line at a time. `groups` are those of the rows.
 void write_packings_csv(const std::vector<Row>& rows, const std::vector<Group>& groups,
                         const GivenUnits& units,

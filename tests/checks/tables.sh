@@ -103,7 +103,8 @@ for sweep in sys.argv[1:]:
     table = {name: pandas.read_csv(f"{folder}/{name}.csv")
              for name in ["packings", "groups", "fits", *by_group]}
     packings, groups = table["packings"], table["groups"]
-    varied = [column for column in groups if "." in column]
+    varied = [column for column in groups
+              if "." in column and not column.startswith("coordination_at_")]
     assert len(groups) == 1 or varied, folder
     assert not groups.duplicated(["label", *varied]).any(), f"{folder}: groups that look alike"
 

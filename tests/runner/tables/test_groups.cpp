@@ -85,6 +85,27 @@ TEST_CASE("packings of different labels are different groups") {
   CHECK(groups_of(rows).size() == 2);
 }
 
+TEST_CASE("groups have the mean coordination at every gap tolerance, with its error") {
+  Row first = settled_row("a", 5, 0.6, 5.75), second = settled_row("b", 5, 0.6, 6.25);
+  Row other = settled_row("c", 6, 0.6, 6.0);
+  other.job.parameters = R"({"a":6})";
+  for (Row* row : {&first, &second}) {
+    row->job.measure.gap_tolerances = {1e-4, 1e-3};
+    std::vector<Coordination>& list = row->outcome->result.coordination;
+    list.push_back(list.front());
+    list.back().gap_tolerance = 1e-3;
+    list.back().between_grains += 0.5;
+  }
+  const std::vector<Row> rows = {first, second, other};
+  const std::string text = groups_csv(analyse(rows).groups);
+  CHECK(cell_in(text, 1, "coordination_at_0.001") == "6.5");
+  CHECK(cell_in(text, 1, "coordination_at_0.001_sd") == "0.3535533905932738");
+  CHECK(std::stod(cell_in(text, 1, "coordination_at_0.001_error")) ==
+        Approx(spread_of({6.25, 6.75}).error));
+  CHECK(cell_in(text, 2, "coordination_at_0.001").empty());
+  CHECK(further_tolerances(analyse(rows).groups) == std::vector<double>{1e-5, 1e-3, 6e-3});
+}
+
 TEST_CASE("the groups table as a whole") {
   Row first = settled_row("a", 5, 0.5, 5.75), second = settled_row("b", 5, 0.75, 6.25);
   Row third = row_with_status("c", 6, PackingStatus::not_settled, "moves");
@@ -140,7 +161,7 @@ TEST_CASE("what a sweep varies has its unit, and no column in another one") {
   const std::string text = groups_csv(groups, millimetres);
   CHECK(cell_in(text, 2, "sizes.distribution.lognormal.median") == "1.1");
   CHECK_THAT(text, !Catch::Contains("median_mm") && !Catch::Contains("diameters_mm"));
-  for (const auto& column : groups_columns(varied_of(groups), millimetres)) {
+  for (const auto& column : groups_columns({}, varied_of(groups), millimetres)) {
     if (column.name == "sizes.distribution.lognormal.median") CHECK(column.unit == "d");
   }
 }
