@@ -142,7 +142,7 @@ bool check_box(const Box& box, double largest, Errors& errors) {
     }
     return check_side("tube.diameter", box.length, Boundary::walls, 1.0, largest, true, errors);
   }
-  const bool length = check_side("box.length", box.length, box.x, 2.0, largest, false, errors);
+  const bool length = check_side("box.length", box.length, box.x, 1.0, largest, false, errors);
   const bool width = check_side("box.width", box.width, box.y, 1.0, largest, false, errors);
   return length && width;
 }

@@ -22,7 +22,7 @@ struct Comparison {
   std::string family;
   std::string title;  ///< "Z at W = 10 d"
   Published published;
-  Measured measured;
+  Measured measured = {};
   std::optional<Misfit> misfit = {};  ///< of families, for a value that is said to hold for all
   /// Of a formula: each width of the family where it holds and both values are known, with the
   /// formula's value there. Of a profile: each of its points where the measured value is known.

@@ -93,7 +93,7 @@ std::string fault_of_formula(const std::string& formula, FormulaOf of) {
       if (!is_known) return "unknown name \"" + name + "\"; " + known;
       names.insert(name);
     }
-    const std::string fault = fault_of_names(names, of);
+    std::string fault = fault_of_names(names, of);
     if (!fault.empty()) return fault;
     parser.Eval();
     if (parser.GetNumResults() == 1) return "";

@@ -248,7 +248,7 @@ Figure profiles_figure(const Axes& axes, const std::vector<Comparison>& comparis
   const std::vector<PublishedPoints> published = published_of(groups, comparisons);
   figure.tables = {{bins_table, bins_csv(groups)}};
   if (!published.empty()) {
-    figure.tables.push_back({published_profiles_table, published_csv(published)});
+    figure.tables.emplace_back(published_profiles_table, published_csv(published));
     figure.caption += " Published profiles stand over the distance from the wall.";
   }
   figure.commands = commands_of(figure, groups, fits, published, axes);

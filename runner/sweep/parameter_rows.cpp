@@ -38,7 +38,7 @@ Rows container_rows() {
                             {"walls", "two flat walls without friction"}};
   return {
       in("d",
-         of_box<&Box::length>("box.length", Interval{2, 10000}, "extent of the box along x, d")),
+         of_box<&Box::length>("box.length", Interval{1, 10000}, "extent of the box along x, d")),
       in("d", of_box<&Box::width>("box.width", Interval{1, 10000},
                                   "extent of the box along y, d: the gap between walls")),
       of_box<&Box::x>("box.x", boundaries, "what bounds the box along x"),

@@ -216,6 +216,32 @@ TEST_CASE("spheres between walls one diameter apart settle, each held by both") 
   CHECK(result.status == PackingStatus::settled);
 }
 
+// Eight beds each have phi = 0.4514 +- 0.0007 and 0.4530 +- 0.0009: single ones scatter by 0.0025.
+TEST_CASE("beds in a narrow gap along x pack like those along y") {
+  PackingSpec spec;
+  spec.box = {1.2, 5, Boundary::walls, Boundary::walls};
+  spec.fill = GrainCount{300};
+  const PackingResult along_x = pack(spec).result;
+  std::swap(spec.box.length, spec.box.width);
+  const PackingResult along_y = pack(spec).result;
+  REQUIRE(along_x.status == PackingStatus::settled);
+  REQUIRE(along_y.status == PackingStatus::settled);
+  CHECK(along_x.solid_fraction == about(along_y.solid_fraction, 0.0125));  // five of that scatter
+  CHECK(along_x.profile_x.bins.size() == along_y.profile_y.bins.size());
+}
+
+// Each stands on one other and touches two walls.
+TEST_CASE("spheres in a shaft narrower than two of them stand on each other") {
+  PackingSpec spec;
+  spec.box = {1.2, 1.2, Boundary::walls, Boundary::walls};
+  spec.sizes.spread = 0.0;
+  spec.fill = GrainCount{40};
+  const Packing packing = pack(spec);
+  REQUIRE(packing.result.status == PackingStatus::settled);
+  CHECK(packing.result.rest.contacts == packing.result.rest.isostatic_contacts);
+  CHECK(packing.result.coordination.front().between_grains == 2.0);
+}
+
 // Grains sleep under 40 d of others while a bed fills up.
 TEST_CASE("a bed whose steps end in its fall is measured with what slept awake") {
   PackingSpec spec;

@@ -90,15 +90,17 @@ TEST_CASE("periodic sides must keep a grain away from its own image") {
                  "margin), is 2.39"});
 }
 
-TEST_CASE("a walled box is at least two long") {
+TEST_CASE("walls along x, too, are as far apart as the largest grain") {
   const auto length = [](double l) {
     return broken_by([=](PackingSpec& spec) {
       spec.box = {l, 5, Boundary::walls, Boundary::walls};
     });
   };
-  CHECK(length(2.0).empty());
-  CHECK(length(1.9) == Messages{"box.length: must lie in [2, 10000], is 1.9"});
-  CHECK(length(10'001.0) == Messages{"box.length: must lie in [2, 10000], is 10001"});
+  CHECK(length(1.2).empty());
+  CHECK(length(1.1) ==
+        Messages{"box.length: must lie in [1.13334, 10000] (the largest grain between two walls), "
+                 "is 1.1"});
+  CHECK(length(10'001.0).size() == 1);
 }
 
 TEST_CASE("solid height is positive and at most 1000, and gives a possible number of grains") {
