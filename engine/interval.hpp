@@ -2,16 +2,16 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "engine/text.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
 struct Interval {
   double low = 0.0;
-  double high = std::numeric_limits<double>::infinity();
+  double high = infinity;
   bool low_open = false, high_open = false;  ///< whether the bound itself is left out
 
   bool holds(double value) const {  // false for NaN

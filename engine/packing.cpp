@@ -1,7 +1,6 @@
 #include "engine/packing.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/dynamics/settle.hpp"
 #include "engine/measure/bond_order.hpp"
@@ -22,8 +21,6 @@
 namespace grainsweep {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Packing failed(std::string reason) {
   Packing packing;

@@ -12,9 +12,12 @@
 // no other scale. Lengths of a bed that comes from elsewhere are divided by its d on reading.
 #pragma once
 
+#include <limits>
+
 namespace grainsweep {
 
 inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Volume of a sphere of radius r, d^3.
 inline double sphere_volume(double radius) { return 4.0 / 3.0 * pi * radius * radius * radius; }

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "engine/units.hpp"
+
 namespace grainsweep {
 
 namespace {
@@ -26,7 +28,7 @@ Heights heights_of(const Balls& balls) {
 /// All grains awake, and the sleeping ones that a grain awake may touch: those at heights from
 /// `lowest` on.
 void choose_members(const Balls& balls, double reach, double lowest, Candidates& candidates) {
-  const double largest = largest_radius(balls, std::numeric_limits<double>::infinity());
+  const double largest = largest_radius(balls, infinity);
   candidates.members.clear();
   for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
     const Record<double>& ball = balls.ball[i];
@@ -387,11 +389,10 @@ void list_candidates(const Balls& balls, double reach, double margin, const Leve
 
 void find_candidates(const Balls& balls, const PairReach& reach_of, const ExecutionContext& context,
                      Candidates& candidates) {
-  constexpr double largest = std::numeric_limits<double>::infinity();
   const auto by_size = [&](const SizeLevel& one, const SizeLevel& other) {
     return reach_of(one.largest_radius, other.largest_radius);
   };
-  list_candidates(balls, reach_of(largest, largest), 0.0, by_size, context, candidates);
+  list_candidates(balls, reach_of(infinity, infinity), 0.0, by_size, context, candidates);
 }
 
 bool still_complete(const Balls& balls, double near, const Candidates& candidates) {

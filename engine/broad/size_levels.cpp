@@ -1,7 +1,8 @@
 #include "engine/broad/size_levels.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -38,7 +39,7 @@ std::size_t level_of(double radius, const std::vector<SizeLevel>& levels) {
 void choose_levels(const Balls& balls, const std::vector<std::int32_t>& members, double margin,
                    std::vector<SizeLevel>& levels) {
   std::size_t count = 0;
-  double below = std::numeric_limits<double>::infinity();
+  double below = infinity;
   for (double largest = largest_radius(balls, below); count == 0 || largest > 0.0;
        largest = largest_radius(balls, below)) {
     if (levels.size() <= count) levels.emplace_back();

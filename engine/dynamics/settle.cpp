@@ -20,6 +20,7 @@
 #include "engine/dynamics/workspace.hpp"
 #include "engine/exact/exact_rest.hpp"
 #include "engine/saved_state.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -31,7 +32,7 @@ constexpr std::int64_t most_rounds = 128;    // a bed that needs more does not c
 constexpr double longest_in_a_round = 0.02;  // d; see longest_of_round
 constexpr std::int64_t rounds_of_a_turn = 4;
 constexpr std::int64_t most_unsolved = 9;  // rounds in a row that leave forces unsolved
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double unlimited = infinity;
 constexpr double rounding_of_places = 1e-9;  // d; far from the origin coordinates have fewer digits
 
 bool is_fit(const Accuracy& accuracy, const Grains& bed) {
@@ -63,7 +64,7 @@ bool are_nearly_of_one_size(const SphereBed& bed) {
 /// No sphere moves so far in a step that it gets past a smaller one unseen: pairs that are further
 /// apart than `near` before the step are not rows. Polyhedra fall more slowly.
 void limit_free_motion(const SphereBed& bed, StepSettings& settings) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = infinity;
   for (const Record<double>& p : bed.centres()) smallest = std::min(smallest, p.w);
   settings.longest_free = std::min(settings.longest_free, settings.near + smallest);
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -38,14 +39,13 @@ double front_of(double dt, const Grains& bed) {
   const std::vector<Slice> slices = slices_of(bed);
   const auto falls = [&](const Slice& s) { return s.descent > falling_speed * dt * s.mass; };
   const auto front = std::find_if(slices.begin(), slices.end(), falls);
-  return front == slices.end() ? -std::numeric_limits<double>::infinity()
-                               : static_cast<double>(front - slices.begin());
+  return front == slices.end() ? -infinity : static_cast<double>(front - slices.begin());
 }
 
 }  // namespace
 
 double mass_ratio(const Grains& bed) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  double least = infinity, most = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     least = std::min(least, bed.motion[i].w);
     most = std::max(most, bed.motion[i].w);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -88,7 +89,7 @@ class GaussSeidel {
     copy(motion_.u, motion_.before);
     begun_.reset();
     momentum_.begin();
-    least_seen_ = std::numeric_limits<double>::infinity();
+    least_seen_ = infinity;
     since_least_ = 0;
   }
   /// A sweep, or a turn of a large bed. Returns the residuals that it saw on the way.
@@ -227,7 +228,6 @@ class GaussSeidel {
     const auto squares = static_cast<double>(missed.squares);
     const auto loaded = static_cast<double>(missed.loaded);
     if (!std::isfinite(squares)) {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
       return {infinity, infinity, loaded};
     }
     return {static_cast<double>(missed.largest), std::sqrt(squares / std::max(loaded, 1.0)),
@@ -286,9 +286,9 @@ class GaussSeidel {
   const bool is_accelerated_;
   bool has_momentum_;  ///< until it is given up
   Momentum momentum_;
-  double least_seen_ = std::numeric_limits<double>::infinity();  ///< residual since a restart
-  int since_least_ = 0;                                          ///< sweeps
-  double first_seen_ = -1.0;  ///< residual at the begin of the descent; none yet if negative
+  double least_seen_ = infinity;  ///< residual since a restart
+  int since_least_ = 0;           ///< sweeps
+  double first_seen_ = -1.0;      ///< residual at the begin of the descent; none yet if negative
   int swept_ = 0;
   std::size_t phase_ = 0;                 ///< of the next turn
   std::optional<SweepRule<Real>> begun_;  ///< rule of the sweep that the last turn began
@@ -308,7 +308,7 @@ SolveReport solve(const SolveLimits& limits, const ExecutionContext& context, Ro
   std::int64_t most = limits.iterations;
   constexpr int most_in_vain = 2;  // one alone may come before others that help
   int in_vain = 0;                 // doublings that did not bring the residual down
-  double left_before = std::numeric_limits<double>::infinity();  // when iterations were doubled
+  double left_before = infinity;   // when iterations were doubled
   for (bool is_done = false; !is_done;) {
     descent.restart();
     Residual seen{};

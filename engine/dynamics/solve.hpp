@@ -9,7 +9,6 @@
 // depth they differ from what weighs (engine/dynamics/inertia.hpp).
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "engine/context.hpp"
@@ -17,6 +16,7 @@
 #include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/spec.hpp"
 #include "engine/shape/convex_shape.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -28,7 +28,7 @@ struct SolveLimits {
   /// While the residual is larger, a mass times d, iterations are doubled, until they reach
   /// `iteration_cap` or doubling has twice failed to bring it down: where rounding limits it, more
   /// do not help.
-  double residual_cap = std::numeric_limits<double>::infinity();
+  double residual_cap = infinity;
   int iteration_cap = 0;
 };
 

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +23,7 @@
 #include "engine/results.hpp"
 #include "engine/rows/contacts.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -51,7 +51,7 @@ struct ExactRestLimits {
   double asked_after = asks_seldom;
   /// Most multiplications of all rounds, including what they do besides factorisations; no round is
   /// begun if they are too few for a usual search.
-  double operations = std::numeric_limits<double>::infinity();
+  double operations = infinity;
   /// Bytes of a search of the same bed, which goes on from them with the same bits; if empty, it
   /// begins anew.
   std::string_view saved = {};

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
 #include "engine/measure/cut_sphere.hpp"
 #include "engine/measure/solid_fraction.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -123,7 +123,6 @@ double slab_volume(const ConvexShape& shape, const Pose& pose, int axis, double 
     const double at = pose.centre[axis];
     return sphere_slab_volume(pose.scale * shape.inradius, low - at, high - at);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector lows = Vector::Constant(-infinity), highs = Vector::Constant(infinity);
   lows[axis] = low;
   highs[axis] = high;

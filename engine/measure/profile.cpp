@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -154,7 +153,6 @@ class OfComponents {
 template <class Below, class Gather>
 void add_volume(std::size_t grain, const Span& span, const Bins& bins, Below below,
                 Gather& gather) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::int64_t last = bins.number_at(span.high);
   double before = 0.0;
   for (std::int64_t k = bins.number_at(span.low); k <= last; ++k) {
@@ -191,7 +189,6 @@ double volume_below(const SphereBed& bed, std::size_t i, int axis, double top, c
 }
 double volume_below(const PolyhedronBed& bed, std::size_t i, int axis, double top,
                     const Slab& slab) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector high(infinity, infinity, slab.top);
   high[axis] = top;
   return box_volume(bed.shape(i), bed.pose(i), {-infinity, -infinity, slab.bottom}, high);
@@ -312,7 +309,6 @@ template <class Kind, class Gather>
 typename Gather::Gathered from_walls(const Bed<Kind>& bed, const Touching& touching,
                                      const Slab& slab, const ProfileSettings& settings,
                                      Gather gather) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Box& box = bed.box;
   const double half = std::min(box.length, box.width) / 2.0;
   const auto count = std::max<std::int64_t>(1, std::llround(half / settings.bin_width));
@@ -342,7 +338,6 @@ typename Gather::Gathered from_walls(const Bed<Kind>& bed, const Touching& touch
 template <class Kind, class Gather>
 typename Gather::Gathered along_z(const Bed<Kind>& bed, const Touching& touching,
                                   const ProfileSettings& settings, Gather gather) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double bins_up = std::ceil(highest_point(bed) / settings.bin_width);
   const Bins bins{settings.bin_width, std::max<std::int64_t>(1, std::llround(bins_up)), false};
   gather.begin(bins);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -48,7 +49,6 @@ std::vector<double> shares_of(const Grains& bed, const std::vector<double>& diam
 
 std::vector<SizeRow> size_rows(const Grains& bed, const SizeCurve& curve, const Slab& slab,
                                std::span<const double> unit_weights) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::vector<double> diameters = diameters_of(curve);
   const auto packed = shares_of(bed, diameters, curve.by, {-infinity, infinity}, unit_weights);
   const auto in_slab = shares_of(bed, diameters, curve.by, slab, unit_weights);

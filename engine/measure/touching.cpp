@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/narrow/ball_pair.hpp"
 #include "engine/narrow/gjk.hpp"
 #include "engine/narrow/polyhedra.hpp"
 #include "engine/narrow/separating_axes.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -34,7 +34,7 @@ double wall_gap(const SphereBed& bed, const Wall& wall, std::size_t grain) {
 double wall_gap(const PolyhedronBed& bed, const Wall& wall, std::size_t grain) {
   if (bed.shape(grain).is_ball) return wall.gap(bed.position[grain]);
   const Pose pose = bed.pose(grain);
-  double gap = std::numeric_limits<double>::infinity();
+  double gap = infinity;
   for (const Vector& vertex : bed.shape(grain).vertices) {
     const Vector place = pose.place(vertex);
     gap = std::min(gap, wall.distance(place.x(), place.y(), place.z()));

@@ -1,7 +1,8 @@
 #include "engine/narrow/ball_pair.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -12,7 +13,7 @@ constexpr double no_direction = 1e-12;
 
 struct Highest {
   const Face* face = nullptr;
-  double height = -std::numeric_limits<double>::infinity();
+  double height = -infinity;
 };
 
 /// The face that a point lies highest above.
@@ -39,7 +40,7 @@ struct OnEdge {
 };
 
 OnEdge nearest_on_edges(const ConvexShape& shape, double scale, const Vector& x) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   OnEdge best;
   for (const Edge& edge : shape.edges) {
     const Vector from = scale * shape.vertices[static_cast<std::size_t>(edge.from)];

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
+
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -90,7 +91,7 @@ void cut_by_sides(const Reference& reference, ClipColumns& columns) {
   const Around ball = around(columns.polygon);
   for (const Side& side : reference.sides()) {
     if (reference.beyond(side, ball.centre) + ball.radius < 0.0) continue;
-    double farthest = -std::numeric_limits<double>::infinity();
+    double farthest = -infinity;
     columns.beyond.resize(columns.polygon.size());
     for (std::size_t k = 0; k < columns.polygon.size(); ++k) {
       columns.beyond[k] = reference.beyond(side, columns.polygon[k]);
@@ -252,7 +253,7 @@ void clip_on_face(const ShapePair& pair, Of reference, std::int32_t face, double
 Segment farthest_edge(const ShapePair& pair, Of which, std::int32_t direction, const Vector& n) {
   const bool is_a = which == Of::a;
   Segment best{Vector::Zero(), Vector::Zero()};
-  double reach = -std::numeric_limits<double>::infinity();
+  double reach = -infinity;
   for (const Edge& edge : (is_a ? pair.a : pair.b).edges) {
     if (edge.direction != direction) continue;
     const Segment segment = is_a ? Segment{pair.vertex_a(edge.from), pair.vertex_a(edge.to)}

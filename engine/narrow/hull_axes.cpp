@@ -6,9 +6,9 @@
 // the shapes by as much still have none; and edges whose arcs were further from crossing than they
 // have turned still do not cross. The candidates are all others.
 #include <algorithm>
-#include <limits>
 
 #include "engine/narrow/axes.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -32,7 +32,7 @@ struct View {
   void forget() {
     known.corners.clear();
     known.heights.clear();
-    known.least.assign(stride(), std::numeric_limits<double>::infinity());
+    known.least.assign(stride(), infinity);
   }
   /// The corner that is lowest along n.
   std::int32_t lowest(const Vector& n) {
@@ -104,7 +104,7 @@ ContactAxis axis_of_b(const ShapePair& pair, std::int32_t face, double separatio
 }
 
 ContactAxis best_face(const ShapePair& pair, View& a, View& b) {
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -infinity;
   const std::int32_t of_a = better_face(a, best), of_b = better_face(b, best);
   return of_b < 0 ? axis_of_a(pair, of_a, best) : axis_of_b(pair, of_b, best);
 }
@@ -221,7 +221,7 @@ constexpr double slow_share = 1.0 / 16.0;
 /// Share of the slack that a pair has used since the pose of its candidates; they hold below a
 /// half.
 double slack_used(const ShapePair& pair, const AxisCandidates& candidates) {
-  if (!candidates.is_set) return std::numeric_limits<double>::infinity();
+  if (!candidates.is_set) return infinity;
   const Eigen::Map<const Vector> centre(candidates.centre);
   const Eigen::Map<const Matrix> turn(candidates.turn);
   const double turned = (pair.pose.turn - turn).norm(), size = pair.size();
@@ -237,7 +237,7 @@ bool list_faces(View& view, double limit, bool of_a, AxisCandidates& candidates)
     const std::size_t k = view.kernels.largest(least.data(), view.shape.faces.size());
     if (!(least[k] > limit)) return true;
     const double separation = view.add_lowest(view.shape.faces[k].normal)[k];
-    least[k] = -std::numeric_limits<double>::infinity();
+    least[k] = -infinity;
     if (!(separation > limit)) continue;
     if (candidates.faces == AxisCandidates::most_faces) return false;
     const auto number = static_cast<std::int16_t>(k);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "engine/narrow/constraints.hpp"
 #include "engine/rows/lanes.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -115,7 +115,7 @@ void store_normal(const Vector& normal, std::size_t lane, BodyBlock<Real>& block
 
 std::size_t nearest_point(const ContactList& found, const PolyhedronContact& contact,
                           const Vector& position) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   std::size_t best = 0;
   for (std::size_t j = 0; j < contact.count; ++j) {
     const double squared = (found.points[contact.first + j].position - position).squaredNorm();
@@ -395,7 +395,7 @@ void take_candidates(const PolyhedronBed& bed, const Candidates& candidates,
   divide_grains(bed, Polyhedron::subdomain_grains, candidates, loop, contacts.subdomains);
   divide_pairs(candidates.pairs, loop, contacts.subdomains);
   match_pairs(bed.grains(), pairs, loop, before);
-  constexpr double unseen = -std::numeric_limits<double>::infinity();
+  constexpr double unseen = -infinity;
   keep_memories(before, loop, unseen, contacts.far_until, contacts.spare_until);
   if (needs_memory(bed)) {
     keep_memories(before, loop, PairMemory{}, contacts.memory, contacts.spare_memory);
@@ -504,7 +504,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
     take_candidates(bed, candidates, contacts, context.loop);
   }
   add_travel(bed, context.loop, contacts.travel);
-  std::vector<Closure> all(bearing.size(), {std::numeric_limits<double>::infinity(), 0, 0});
+  std::vector<Closure> all(bearing.size(), {infinity, 0, 0});
   parallel_for(context.loop, contacts.subdomains.count, [&](std::size_t s) {
     NarrowColumns columns;
     ContactList now;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "engine/units.hpp"
@@ -39,16 +38,14 @@ struct Box {
 
 /// The shorter of its periods, d; infinite if it has none.
 inline double shortest_period(const Box& box) {
-  const auto of = [](double period) {
-    return period > 0.0 ? period : std::numeric_limits<double>::infinity();
-  };
+  const auto of = [](double period) { return period > 0.0 ? period : infinity; };
   return std::min(of(box.period_x()), of(box.period_y()));
 }
 
 /// Least distance between walls that face each other, d; infinite where none do.
 inline double nearest_walls(const Box& box) {
   const auto of = [](Boundary boundary, double extent) {
-    return boundary == Boundary::walls ? extent : std::numeric_limits<double>::infinity();
+    return boundary == Boundary::walls ? extent : infinity;
   };
   return std::min(of(box.x, box.length), of(box.y, box.width));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/scene/random.hpp"
 #include "engine/shape/given_shape.hpp"
@@ -160,8 +159,7 @@ double small_class_limit(const SizesSpec& sizes) {
   if (sizes.small_share <= 0.0 || sizes.distribution) {
     return 0.0;
   }
-  return sizes.small_share < 1.0 ? sizes.size_ratio / (1.0 + sizes.size_ratio)
-                                 : std::numeric_limits<double>::infinity();
+  return sizes.small_share < 1.0 ? sizes.size_ratio / (1.0 + sizes.size_ratio) : infinity;
 }
 
 }  // namespace grainsweep

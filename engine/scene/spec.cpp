@@ -11,6 +11,7 @@
 #include "engine/shape/given_shape.hpp"
 #include "engine/shape/mixture.hpp"
 #include "engine/text.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 namespace {
@@ -508,7 +509,7 @@ double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
       volumes.push_back(extent_of(one.shape).volume);
     }
   }
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  double least = infinity, most = 0.0;
   const double largest = largest_radius(placed);  // whose cube may be no number
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
     const double radius = placed.grains[i].radius / largest;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/portable.hpp"
@@ -165,7 +164,7 @@ std::optional<NumberedSphere> place(const std::vector<Column>& columns, const Bo
 /// of these sizes have a column of their own, so that no cell holds hundreds of small ones.
 std::vector<double> column_diameters(const std::vector<double>& radii) {
   std::vector<double> diameters;
-  double below = std::numeric_limits<double>::infinity();
+  double below = infinity;
   for (;;) {
     double largest = 0.0;
     for (const double radius : radii) {

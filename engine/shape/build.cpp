@@ -108,8 +108,7 @@ void add_columns(ConvexShape& shape) {
     shape.normal_columns.add(face.normal);
     shape.offset_columns.push_back(face.offset);
   }
-  shape.offset_columns.resize(shape.normal_columns.padded(),
-                              std::numeric_limits<double>::infinity());
+  shape.offset_columns.resize(shape.normal_columns.padded(), infinity);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "engine/shape/build.hpp"
 #include "engine/text.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 
@@ -221,7 +221,7 @@ std::vector<Plane> planes_of(const std::vector<Vector>& corners, const Loops& lo
 
 /// Depth of a point below the nearest face of the hull.
 double depth_of(const Vector& point, const std::vector<Plane>& faces) {
-  double depth = std::numeric_limits<double>::infinity();
+  double depth = infinity;
   for (const Plane& face : faces) depth = std::min(depth, face.offset - face.normal.dot(point));
   return depth;
 }

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "engine/units.hpp"
 #include "runner/analysis/fit.hpp"
 #include "runner/analysis/student.hpp"
 #include "runner/jobs/replicate_means.hpp"
 
 namespace grainsweep {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A coefficient whose error is requested.
 struct Target {

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "engine/scene/start.hpp"
+#include "engine/units.hpp"
 #include "tests/extremes/accuracy_names.hpp"
 #include "tests/extremes/catalogue.hpp"
 #include "tests/extremes/packed.hpp"
@@ -10,7 +11,6 @@ namespace grainsweep::extremes {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 PackingSpec placed(const PlacedSphere& odd) {
   PackingSpec spec = small_spec(1, at_preset("balanced").accuracy);

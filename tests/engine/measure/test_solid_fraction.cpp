@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -39,7 +38,6 @@ TEST_CASE("half a sphere has half its volume, a cap pi h^2 (3 r - h) / 3") {
 }
 
 TEST_CASE("a share of small grains is that of their volume in the slab, however far grains reach") {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto upright = [](double x, double scale) {
     return testing::pose_at(x, 2, 3, Quaternion::Identity(), scale);
   };

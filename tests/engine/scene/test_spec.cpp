@@ -9,12 +9,12 @@
 
 #include "engine/dynamics/presets.hpp"
 #include "engine/scene/spec.hpp"
+#include "engine/units.hpp"
 
 namespace grainsweep {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A specification in which every rule holds, with one change.
 template <class Change>
