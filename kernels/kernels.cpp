@@ -23,15 +23,8 @@ constexpr Isa all[] = {Isa::sse2, Isa::avx2, Isa::avx512};
 }  // namespace
 
 const char* name_of(Isa isa) {
-  switch (isa) {
-    case Isa::sse2:
-      return "sse2";
-    case Isa::avx2:
-      return "avx2";
-    case Isa::avx512:
-      return "avx512";
-  }
-  return "unknown";
+  constexpr const char* names[] = {"sse2", "avx2", "avx512"};  // in order of Isa
+  return names[static_cast<int>(isa)];
 }
 
 // The compiler's test reads the processor and also asks whether the operating system saves the

@@ -59,7 +59,8 @@ inline void store_records(Record<float>* base, const std::uint32_t* offset,
   store_four(base, offset, 3, r3);
 }
 
-/// Calls put(lane, record) for the records of quarter `quarter` of four transposed batches.
+/// Calls put(lane, record) for the records of quarter `quarter` of four transposed batches. Always
+/// inlined: a call in a sweep costs more than what it does.
 template <int quarter, class Put>
 [[gnu::always_inline]] inline void put_quarter(const Put& put, __m512 r0, __m512 r1, __m512 r2,
                                                __m512 r3) {
@@ -69,21 +70,15 @@ template <int quarter, class Put>
   put(4 * quarter + 3, _mm512_extractf32x4_ps(r3, quarter));
 }
 
-/// Calls put(lane, record) for every lane, in order. Always inlined: a call in a sweep costs more
-/// than what it does.
-template <class Put>
-[[gnu::always_inline]] inline void put_records(const Components<float>& c, const Put& put) {
+inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
+                         const Components<float>& c) {
+  const auto put = [&](int k, __m128 push) { push_pair(at(base, a[k]), at(base, b[k]), push); };
   __m512 r0 = c.x, r1 = c.y, r2 = c.z, r3 = c.w;
   transpose(r0, r1, r2, r3);
   put_quarter<0>(put, r0, r1, r2, r3);
   put_quarter<1>(put, r0, r1, r2, r3);
   put_quarter<2>(put, r0, r1, r2, r3);
   put_quarter<3>(put, r0, r1, r2, r3);
-}
-
-inline void push_records(Record<float>* base, const std::uint32_t* a, const std::uint32_t* b,
-                         const Components<float>& c) {
-  put_records(c, [&](int k, __m128 push) { push_pair(at(base, a[k]), at(base, b[k]), push); });
 }
 
 /// Records i and j, one in each half.
@@ -147,12 +142,6 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
   }
 }
 
-/// Adds each record of `c` to its place; lanes may share one.
-inline void add_records(Record<float>* base, const std::uint32_t* offset,
-                        const Components<float>& c) {
-  put_records(c, [&](int k, __m128 record) { add_to(at(base, offset[k]), record); });
-}
-
 /// Both records of grains k and k + 4, one grain in each half.
 inline __m512 load_two_grains(const Record<float>* base, const std::uint32_t* offset, int k) {
   const __m512 grain = _mm512_castps256_ps512(_mm256_loadu_ps(&at(base, offset[k]).x));
@@ -214,6 +203,7 @@ inline void add_to(Record<double>& to, __m256d record) {
   _mm256_store_pd(&to.x, _mm256_add_pd(_mm256_load_pd(&to.x), record));
 }
 
+/// Adds each record of `c` to its place; lanes may share one.
 inline void add_records(Record<double>* base, const std::uint32_t* offset,
                         const Components<double>& c) {
   const EightRecords r = records_of(c);

@@ -40,10 +40,6 @@ inline void push_pair(Record<float>& a, Record<float>& b, __m128 push) {
   _mm_store_ps(&b.x, _mm_add_ps(_mm_load_ps(&b.x), push));
 }
 
-inline void add_to(Record<float>& to, __m128 record) {
-  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
-}
-
 /// Components of two records that follow each other in memory, as those of a polyhedron.
 template <class Components>
 struct TwoRecords {

@@ -77,6 +77,10 @@ inline void push_records(Record<double>* base, const std::uint32_t* a, const std
   push_pair(at(base, a[1]), at(base, b[1]), _mm_unpackhi_pd(c.x, c.y), _mm_unpackhi_pd(c.z, c.w));
 }
 
+inline void add_to(Record<float>& to, __m128 record) {
+  _mm_store_ps(&to.x, _mm_add_ps(_mm_load_ps(&to.x), record));
+}
+
 /// Adds each record of `c` to its place; lanes may share one.
 inline void add_records(Record<float>* base, const std::uint32_t* offset,
                         const Components<float>& c) {
