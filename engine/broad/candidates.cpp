@@ -204,12 +204,12 @@ void list_pairs(const Balls& balls, const LevelReach& reach_of, const ExecutionC
 void list_walls(const Balls& balls, Candidates& candidates) {
   candidates.walls.resize(balls.bed.walls.size());
   for (std::size_t k = 0; k < balls.bed.walls.size(); ++k) {
-    WallCandidates& near = candidates.walls[k];
-    near.grains.clear();
+    std::vector<std::int32_t>& near = candidates.walls[k];
+    near.clear();
     for (std::size_t i = 0; i < balls.bed.grains(); ++i) {
       if (balls.bed.is_asleep(i)) continue;
       if (balls.bed.walls[k].gap(balls.ball[i]) < candidates.reach) {
-        near.grains.push_back(static_cast<std::int32_t>(i));
+        near.push_back(static_cast<std::int32_t>(i));
       }
     }
   }
@@ -329,7 +329,7 @@ void keep_unlisted(Candidates& candidates) {
 /// Lists the walls that strays have come within reach of.
 void add_walls(const SphereBed& bed, Candidates& candidates) {
   for (std::size_t k = 0; k < bed.walls.size(); ++k) {
-    std::vector<std::int32_t>& near = candidates.walls[k].grains;
+    std::vector<std::int32_t>& near = candidates.walls[k];
     for (const std::int32_t grain : candidates.strays) {
       const Record<double>& p = bed.position[static_cast<std::size_t>(grain)];
       if (bed.walls[k].gap(p) < candidates.reach &&
@@ -402,14 +402,14 @@ bool still_complete(const Balls& balls, double near, const Candidates& candidate
   return true;
 }
 
-ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
-                               SphereBed& bed, Candidates& candidates) {
+bool complete_candidates(double near, double margin, const ExecutionContext& context,
+                         SphereBed& bed, Candidates& candidates) {
   if (candidates.is_listed) {
     find_strays({bed, bed.position}, near, candidates);
-    if (candidates.strays.empty()) return ListChange::none;
+    if (candidates.strays.empty()) return false;
     if (may_look_up(bed, candidates)) {
       look_up(context, bed, candidates);
-      return ListChange::added;
+      return false;
     }
   }
   wrap(bed, context.loop);
@@ -419,7 +419,7 @@ ListChange complete_candidates(double near, double margin, const ExecutionContex
   };
   list_candidates({bed, bed.position}, reach, margin, less_of_small, context, candidates);
   candidates.is_listed = true;
-  return ListChange::whole;
+  return true;
 }
 
 }  // namespace grainsweep

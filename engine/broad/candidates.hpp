@@ -33,11 +33,6 @@ struct Heights {
   double top = -std::numeric_limits<double>::max();
 };
 
-/// Grains that come within reach of one wall.
-struct WallCandidates {
-  std::vector<std::int32_t> grains;  ///< ascending; then those that were added
-};
-
 /// Memory of a search across levels: the spheres of one level on their way through another's grid.
 struct QueryColumns {
   std::vector<float> x, y, z, radius;
@@ -53,9 +48,6 @@ struct LookupGrids {
   std::vector<std::uint8_t> has_moved;  ///< of each grain
 };
 
-/// Whether a list is unchanged, has been added to, or is a new one.
-enum class ListChange { none, added, whole };
-
 struct Candidates {
   bool is_listed = false;    ///< whether what follows is of this bed
   double reach = 0.0;        ///< every pair with a gap below it (less what the levels of its grains
@@ -65,7 +57,8 @@ struct Candidates {
   std::size_t searched = 0;  ///< pairs that the search found
   std::vector<GrainPair> pairs;  ///< each once, a < b: first in the order of the search grids, then
                                  ///< those that strays have added
-  std::vector<WallCandidates> walls;
+  /// Grains that come within reach of each wall, ascending; then those that strays have added.
+  std::vector<std::vector<std::int32_t>> walls;
   std::vector<Record<double>> built_at;  ///< where each grain was looked up
   std::vector<std::int32_t> members;     ///< grains that can be found, ascending
   std::vector<SizeLevel> levels;         ///< from large to small, at least one
@@ -115,12 +108,13 @@ bool renew_candidates(double near, double margin, const ExecutionContext& contex
   return true;
 }
 
-/// Completes the list of a bed of spheres for all pairs and walls with a gap below `near`, and says
-/// how. Strays are wrapped and looked up singly while they are few; else the whole bed is wrapped
-/// and listed anew as far as near + margin, with a smaller margin for small grains. A pair that is
-/// no longer near stays in the list until it is made anew. While a list stands `near` must not
-/// rise: pairs of small grains are looked up only as far as `near` was when the list was made.
-ListChange complete_candidates(double near, double margin, const ExecutionContext& context,
-                               SphereBed& bed, Candidates& candidates);
+/// Completes the list of a bed of spheres for all pairs and walls with a gap below `near`. Strays
+/// are wrapped and looked up singly while they are few; else the whole bed is wrapped and listed
+/// anew as far as near + margin, with a smaller margin for small grains. A pair that is no longer
+/// near stays in the list until it is made anew. While a list stands `near` must not rise: pairs of
+/// small grains are looked up only as far as `near` was when the list was made. Returns whether the
+/// list is a new one.
+bool complete_candidates(double near, double margin, const ExecutionContext& context,
+                         SphereBed& bed, Candidates& candidates);
 
 }  // namespace grainsweep

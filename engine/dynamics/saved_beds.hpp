@@ -15,7 +15,7 @@ void transfer_candidates(Archive& archive, List& candidates) {
   archive.column(candidates.pairs);
   archive.column(candidates.built_at);
   archive.column(candidates.members);
-  archive.list(candidates.walls, [&](auto& near) { archive.column(near.grains); });
+  archive.list(candidates.walls, [&](auto& near) { archive.column(near); });
   archive.list(candidates.levels, [&](auto& level) {
     archive.value(level.largest_radius);
     archive.value(level.less);

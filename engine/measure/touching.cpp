@@ -59,7 +59,7 @@ Touching find_touching(Bed<Kind>& bed, const PairReach& tolerance_of, const Kern
     }
   }
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    for (const std::int32_t grain : candidates.walls[k].grains) {
+    for (const std::int32_t grain : candidates.walls[k]) {
       const double gap = wall_gap(bed, bed.walls[k], static_cast<std::size_t>(grain));
       if (gap < candidates.reach) {
         touching.walls.push_back({grain, static_cast<std::int32_t>(k), gap});

@@ -107,7 +107,7 @@ template <class Real>
 bool add_near_walls(const SphereBed& bed, const Candidates& candidates,
                     SphereContacts<Real>& contacts) {
   for (const WallRows& wall : contacts.walls) {
-    const std::vector<std::int32_t>& grains = candidates.walls[wall.wall].grains;
+    const std::vector<std::int32_t>& grains = candidates.walls[wall.wall];
     std::size_t& taken = contacts.taken_at_walls[wall.wall];
     for (; taken < grains.size(); ++taken) {
       if (!add_at_wall(bed, wall, grains[taken], contacts)) return false;

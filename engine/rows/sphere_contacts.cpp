@@ -283,8 +283,8 @@ void lay_out_near(double reach, const ExecutionContext& context, const SphereBed
   part_spares(reach, context, bed, candidates, contacts);
   lay_out_carried(bed, candidates, contacts.layout.near, late_share, context.loop, contacts);
   contacts.taken_at_walls.clear();
-  for (const WallCandidates& wall : candidates.walls) {
-    contacts.taken_at_walls.push_back(wall.grains.size());
+  for (const std::vector<std::int32_t>& near : candidates.walls) {
+    contacts.taken_at_walls.push_back(near.size());
   }
 }
 
@@ -302,11 +302,11 @@ template <class Real>
 bool renew_rows(double near, double reach, const ExecutionContext& context, SphereBed& bed,
                 Candidates& candidates, SphereContacts<Real>& contacts) {
   constexpr double candidate_margin = 0.09;  // d; near enough for the shortest periodic sides
-  const ListChange change = complete_candidates(near, candidate_margin, context, bed, candidates);
-  if (change == ListChange::whole || !add_near(near, context, bed, candidates, contacts)) {
+  const bool is_new = complete_candidates(near, candidate_margin, context, bed, candidates);
+  if (is_new || !add_near(near, context, bed, candidates, contacts)) {
     lay_out_near(reach, context, bed, candidates, contacts);
   }
-  return change == ListChange::whole;
+  return is_new;
 }
 
 template <class Real>

@@ -94,7 +94,7 @@ void sort_near_walls(const Candidates& candidates, Subdomains& subdomains) {
   near.resize(std::max(near.size(), candidates.walls.size() * subdomains.count));
   for (std::vector<std::int32_t>& grains : near) grains.clear();
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    for (const std::int32_t grain : candidates.walls[k].grains) {
+    for (const std::int32_t grain : candidates.walls[k]) {
       near[k * subdomains.count + subdomains.subdomain_of(grain)].push_back(grain);
     }
   }

@@ -63,8 +63,7 @@ bool holds_all_closer_than(const SphereBed& bed, const Candidates& candidates, d
   const auto listed = listed_pairs(candidates), close = pairs_closer_than(bed, reach);
   bool holds = std::includes(listed.begin(), listed.end(), close.begin(), close.end());
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    const std::set<std::int32_t> listed_at(candidates.walls[k].grains.begin(),
-                                           candidates.walls[k].grains.end());
+    const std::set<std::int32_t> listed_at(candidates.walls[k].begin(), candidates.walls[k].end());
     for (std::int32_t i = 0; i < bed.wall(); ++i) {
       const bool is_listed = listed_at.contains(i);
       const bool is_close = bed.walls[k].gap(bed.position[static_cast<std::size_t>(i)]) < reach;

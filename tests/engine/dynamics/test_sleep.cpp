@@ -81,8 +81,8 @@ TEST_CASE("what sleeps is neither searched among itself nor with walls") {
   }
   CHECK(expected == listed.size());
   CHECK(expected > 300);
-  for (const WallCandidates& near : candidates.walls) {
-    for (const std::int32_t grain : near.grains) {
+  for (const std::vector<std::int32_t>& near : candidates.walls) {
+    for (const std::int32_t grain : near) {
       CHECK_FALSE(bed.is_asleep(static_cast<std::size_t>(grain)));
     }
   }

@@ -23,8 +23,7 @@ constexpr double near = 0.05, margin = 0.01;  // d
 
 /// What the rows of a bed have gone through.
 struct Counts {
-  int whole = 0;    ///< searches
-  int layouts = 0;  ///< these and the layouts between them
+  int layouts = 0;  ///< searches, and the layouts between them
   int late = 0;     ///< steps that added rows without a layout
 };
 
@@ -51,7 +50,6 @@ void bring_up_to_date(SphereBed& bed, Candidates& candidates, SphereContacts<Rea
                       Counts& counts) {
   const std::size_t late_before = late_blocks(contacts), free_before = free_blocks(contacts);
   const bool searched = renew_rows(near, near + margin, kernels(), bed, candidates, contacts);
-  counts.whole += searched ? 1 : 0;
   counts.layouts += searched || late_blocks(contacts) < late_before ? 1 : 0;
   counts.late += free_blocks(contacts) < free_before ? 1 : 0;
 }

@@ -28,7 +28,7 @@ using Name = testing::ContactName;
 std::set<Name> names_of(const SphereBed& bed, const Candidates& candidates) {
   std::set<Name> names = testing::listed_pairs(candidates);
   for (std::size_t k = 0; k < candidates.walls.size(); ++k) {
-    for (const std::int32_t grain : candidates.walls[k].grains) {
+    for (const std::int32_t grain : candidates.walls[k]) {
       names.insert({grain, bed.wall() + static_cast<std::int32_t>(k)});
     }
   }
