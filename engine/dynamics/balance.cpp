@@ -99,7 +99,9 @@ Imbalance static_imbalance(double tolerance, double of_interest, const Execution
   lay_out_closed(tolerance, context, wrapped, closed.candidates, dt, contacts, closed.contacts);
   const double least = least_imbalance(bed, closed.contacts);
   if (least > of_interest) return {least, least};
-  if (is_tall(bed)) carry_weight(1.0, bed, closed.contacts);
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    if (is_tall(bed)) carry_weight(1.0, bed, closed.contacts);
+  }
   set_free_fall(bed, closed.motion.free);
   SolveLimits limits;
   limits.iterations = most_sweeps;

@@ -8,7 +8,6 @@
 // short-range errors.
 #pragma once
 
-#include "engine/rows/polyhedron_contacts.hpp"
 #include "engine/rows/sphere_contacts.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -25,8 +24,5 @@ inline bool is_tall(const Grains& bed) { return top_of(bed) > tall_from; }
 /// Scales the impulses of a step of length `dt`; at most to their double or half.
 template <class Real>
 void carry_weight(double dt, const SphereBed& bed, SphereContacts<Real>& contacts);
-/// Polyhedra: nothing is scaled.
-template <class Real>
-void carry_weight(double, const PolyhedronBed&, PolyhedronContacts<Real>&) {}
 
 }  // namespace grainsweep

@@ -589,8 +589,8 @@ SettleReport settle(const Accuracy& accuracy, const ExecutionContext& context, B
   Workspace& memory = context.workspace != nullptr ? *context.workspace : own;
   const Accuracy closer = closer_where_narrow(accuracy, bed.box);
   const auto settle_as = [&](auto& state) {
-    return Settling(closer, context, keep_going, state, std::get<ClosedState<Kind>>(memory.closed),
-                    bed)
+    return Settling(closer, context, keep_going, state,
+                    std::get<StepState<Kind, double>>(memory.closed), bed)
         .run(saved);
   };
   return accuracy.precision == Precision::f32

@@ -139,22 +139,6 @@ void scale_motion(double ratio, PolyhedronBed& bed) {
   for (Vector& spin : bed.spin) spin *= ratio;
 }
 
-/// Impulses begin such that they carry the bed; in a high bed their changes are solved for.
-template <class Real>
-SolveReport solve_tall(double dt, const SolveLimits& limits, const ExecutionContext& context,
-                       const SphereBed& bed, StepState<Sphere, Real>& state) {
-  carry_weight(dt, bed, state.contacts);
-  if (std::is_same_v<Real, float> && is_high(bed)) {
-    return solve_changes(limits, context, state.contacts, state.motion);
-  }
-  return solve(limits, context, state.contacts, state.motion);
-}
-template <class Real>
-SolveReport solve_tall(double, const SolveLimits& limits, const ExecutionContext& context,
-                       const PolyhedronBed&, StepState<Polyhedron, Real>& state) {
-  return solve(limits, context, state.contacts, state.motion);
-}
-
 /// Rows of spheres are laid out for the steps they were listed for.
 void forget_list(const SphereBed&, Candidates& candidates) { candidates.is_listed = false; }
 void forget_list(const PolyhedronBed&, Candidates&) {}
@@ -225,6 +209,22 @@ void advance(const StepSettings& settings, const ParallelFor& loop, Bed<Kind>& b
   report.carried = all.mass > 0.0 ? all.lift / (dt * dt * all.mass) : 1.0;
 }
 
+/// Impulses begin such that they carry a tall bed; in a high bed their changes are solved for.
+template <class Kind, class Real>
+SolveReport solve_rows(const StepSettings& settings, const SolveLimits& limits,
+                       const ExecutionContext& context, const Bed<Kind>& bed,
+                       StepState<Kind, Real>& state) {
+  if constexpr (std::is_same_v<Kind, Sphere>) {
+    if (settings.carries && is_tall(bed)) {
+      carry_weight(settings.dt, bed, state.contacts);
+      if (std::is_same_v<Real, float> && is_high(bed)) {
+        return solve_changes(limits, context, state.contacts, state.motion);
+      }
+    }
+  }
+  return solve(limits, context, state.contacts, state.motion);
+}
+
 /// Solves the rows as they are and moves all grains.
 template <class Kind, class Real>
 void move_on_contacts(const StepSettings& settings, const ExecutionContext& context, Bed<Kind>& bed,
@@ -235,9 +235,7 @@ void move_on_contacts(const StepSettings& settings, const ExecutionContext& cont
   limits.rms_tolerance *= force_unit;
   const int iterations = report.solve.iterations;
   set_free_motion(settings, context.loop, bed, state.motion);
-  report.solve = settings.carries && is_tall(bed)
-                     ? solve_tall(settings.dt, limits, context, bed, state)
-                     : solve(limits, context, state.contacts, state.motion);
+  report.solve = solve_rows(settings, limits, context, bed, state);
   report.solve.iterations += iterations;
   report.spurious_path += report.solve.rms * report.solve.loaded /
                           static_cast<double>(std::max<std::int64_t>(degrees_of_freedom(bed), 1));

@@ -10,16 +10,13 @@
 
 namespace grainsweep {
 
-/// Closed contacts of a bed, as the static balance solves them.
-template <class Kind>
-struct ClosedState : StepState<Kind, double> {};
-
 /// For one packing at a time.
 struct Workspace {
   std::tuple<StepState<Sphere, float>, StepState<Sphere, double>, StepState<Polyhedron, float>,
              StepState<Polyhedron, double>>
       states;
-  std::tuple<ClosedState<Sphere>, ClosedState<Polyhedron>> closed;
+  /// Closed contacts of a bed, as the static balance solves them.
+  std::tuple<StepState<Sphere, double>, StepState<Polyhedron, double>> closed;
 };
 
 /// Forgets the last packing but keeps its memory.
