@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <vector>
 
 #include "engine/units.hpp"
 
@@ -70,12 +71,6 @@ std::vector<Harmonics> harmonics_of_grains(const Grains& bed, const Touching& ne
 
 double bond_gap(double radius_a, double radius_b) {
   return std::min(bond_share * (radius_a + radius_b), longest_bond_gap);
-}
-
-double bond_order(const std::vector<Vector>& bonds) {
-  Harmonics harmonics;
-  for (const Vector& u : bonds) add(u, harmonics);
-  return invariant(harmonics);
 }
 
 BondOrder bond_order(const Grains& bed, const Touching& near, const Slab& slab) {

@@ -6,8 +6,6 @@
 // bonded if their gap is below 0.2 times the mean of their diameters, and below 0.2 d.
 #pragma once
 
-#include <vector>
-
 #include "engine/measure/slab.hpp"
 #include "engine/measure/touching.hpp"
 
@@ -17,9 +15,6 @@ namespace grainsweep {
 double bond_gap(double radius_a, double radius_b);
 /// Upper bound of bond_gap, d.
 inline constexpr double longest_bond_gap = 0.2;
-
-/// Q6 of unit vectors; NaN if there are none.
-double bond_order(const std::vector<Vector>& bonds);
 
 struct BondOrder {
   double global = 0.0;  ///< of all bonds of the slab's grains together

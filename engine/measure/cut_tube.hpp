@@ -8,7 +8,6 @@
 // height the integral is known, in complete elliptic integrals.
 #pragma once
 
-#include "engine/measure/slab.hpp"
 #include "engine/shape/pose.hpp"
 
 namespace grainsweep {

@@ -35,9 +35,10 @@ std::vector<double> shares_of(const Grains& bed, const std::vector<double>& diam
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const Record<double>& grain = bed.position[i];
     if (!slab.contains(grain.z)) continue;
-    const double diameter = 2.0 * grain.w, unit = unit_weights.empty() ? 1.0 : unit_weights[i];
+    const double diameter = 2.0 * grain.w;
     const auto row = std::lower_bound(diameters.begin(), diameters.end(), diameter - rounding);
-    up_to[static_cast<std::size_t>(row - diameters.begin())] += unit * weight_of(by, diameter);
+    up_to[static_cast<std::size_t>(row - diameters.begin())] +=
+        unit_weights[i] * weight_of(by, diameter);
   }
   for (std::size_t k = 1; k < up_to.size(); ++k) up_to[k] += up_to[k - 1];
   const double all = up_to.back();

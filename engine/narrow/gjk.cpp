@@ -191,7 +191,8 @@ Closest closest_points(const ShapePair& pair, const HullKernels& kernels) {
   Corners best = nearest_of(first_corner(pair));
   Vector nearest = best.nearest();
   Closest result;
-  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
+  int iterations = 1;
+  for (; iterations <= max_iterations; ++iterations) {
     result.overlap = best.count == 4 || nearest.norm() <= touch;
     if (result.overlap) break;
     Corners next = best;
@@ -209,7 +210,7 @@ Closest closest_points(const ShapePair& pair, const HullKernels& kernels) {
     best = next;
     nearest = moved;
   }
-  result.converged = result.iterations <= max_iterations;
+  result.converged = iterations <= max_iterations;
   result.distance = result.overlap ? 0.0 : nearest.norm();
   set_witnesses(pair, best, result);
   return result;

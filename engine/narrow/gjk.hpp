@@ -16,7 +16,6 @@ struct Closest {
   Vector on_b = Vector::Zero();
   bool overlap = false;    ///< the shapes share a point, or are closer than rounding can resolve
   bool converged = false;  ///< false never happened; then distance is an upper bound
-  int iterations = 0;
 };
 
 /// Starts from the corners that lie towards each other's centre. `kernels` serve the axes.

@@ -117,10 +117,6 @@ SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres) {
   return bed;
 }
 
-PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses) {
-  return make_bed(box, std::vector{std::move(shape)}, {}, poses);
-}
-
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses) {
   const auto shape_of = [&](std::size_t i) -> const ConvexShape& {

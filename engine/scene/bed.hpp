@@ -153,10 +153,8 @@ std::int64_t degrees_of_freedom(const PolyhedronBed& bed);
 /// A bed at rest in mid-air: the given spheres, and the entries that are not grains.
 SphereBed make_bed(const Box& box, const std::vector<PlacedSphere>& spheres);
 
-/// The same with grains of `shape`. Requires unit quaternions and positive scales.
-PolyhedronBed make_bed(const Box& box, ConvexShape shape, const std::vector<Pose>& poses);
-
-/// The same with grains of several shapes; `components` says which shape each grain has.
+/// The same with grains of these shapes; `components` says which shape each grain has, and is empty
+/// if there is only one. Requires unit quaternions and positive scales.
 PolyhedronBed make_bed(const Box& box, std::vector<ConvexShape> shapes,
                        std::vector<std::uint8_t> components, const std::vector<Pose>& poses);
 

@@ -25,7 +25,7 @@ PolyhedronBed stack_of(const ConvexShape& shape, int grains) {
   for (const Vector& v : shape.vertices) half = std::max(half, v.z());
   std::vector<Pose> poses;
   for (int k = 0; k < grains; ++k) poses.push_back(testing::pose_at(3, 3, (2 * k + 1) * half));
-  return make_bed({6, 6, Boundary::periodic, Boundary::walls}, shape, poses);
+  return testing::shape_bed({6, 6, Boundary::periodic, Boundary::walls}, shape, poses);
 }
 
 /// Force that a contact carries: that of the grains above, between neighbours and on the floor.

@@ -15,6 +15,12 @@ inline Pose pose_at(double x, double y, double z,
   return {{x, y, z}, scale, orientation};
 }
 
+/// Grains of one shape.
+inline PolyhedronBed shape_bed(const Box& box, const ConvexShape& shape,
+                               const std::vector<Pose>& poses) {
+  return make_bed(box, {shape}, {}, poses);
+}
+
 /// Grains turned at random with centres at random in a box, up to `height`.
 inline PolyhedronBed random_shape_bed(const Box& box, const ConvexShape& shape, std::size_t grains,
                                       double height, std::uint64_t seed) {
@@ -26,7 +32,7 @@ inline PolyhedronBed random_shape_bed(const Box& box, const ConvexShape& shape, 
     const Quaternion turn = random_rotation(draw);
     poses.push_back(pose_at(x, y, z, turn, draw.uniform(0.9, 1.1)));
   }
-  return make_bed(box, shape, poses);
+  return shape_bed(box, shape, poses);
 }
 
 /// The contacts of a bed so small that it is one subdomain.

@@ -172,7 +172,7 @@ TEST_CASE("the imbalance of a bed is that of a dense reference, whatever forces 
 
 /// Cubes stand on the floor and on each other, 5e-5 d apart so that they touch.
 PolyhedronBed bed_of_cubes(const std::vector<Pose>& poses) {
-  return make_bed({6, 6, periodic, walls}, testing::cube(), poses);
+  return testing::shape_bed({6, 6, periodic, walls}, testing::cube(), poses);
 }
 
 TEST_CASE("the faces of a stack of cubes carry it") {

@@ -12,6 +12,7 @@ namespace {
 using testing::kernels;
 using testing::periodic;
 using testing::pose_at;
+using testing::shape_bed;
 using testing::walls;
 
 /// As measured after a step that is solved far below every number that is compared, and after which
@@ -27,7 +28,7 @@ RestReport rest_after_step(PolyhedronBed& bed, double lowered) {
 }
 
 TEST_CASE("a lone grain on the floor has three constraints and is isostatic") {
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   const RestReport rest = rest_after_step(bed, 0.0);
   CHECK(rest.contacts == 3);
   CHECK(rest.isostatic_contacts == 3);
@@ -49,7 +50,7 @@ TEST_CASE("spheres of a mixture have three freedoms, and hold a polyhedron they 
 }
 
 TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   const RestReport rest = rest_after_step(bed, 0.01);
   CHECK(rest.overlap_max == about(0.01, 1e-6));
   CHECK(rest.overlap_mean == about(0.01, 1e-6));
@@ -60,7 +61,7 @@ std::int64_t modes_of_a_row(const Box& box, std::int32_t cubes,
                             std::vector<ForceContact> contacts) {
   std::vector<Pose> poses;
   for (std::int32_t i = 0; i < cubes; ++i) poses.push_back(pose_at(0.5 + i, 0.5, 0.5));
-  const PolyhedronBed bed = make_bed(box, testing::cube(), poses);
+  const PolyhedronBed bed = shape_bed(box, testing::cube(), poses);
   for (ForceContact& wall : contacts) wall.b = bed.wall_name(static_cast<std::size_t>(wall.b));
   for (std::int32_t i = 0; i + 1 < cubes; ++i) contacts.push_back({i, i + 1, 1.0});
   return zero_modes(bed, contacts);
@@ -78,7 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE("each vertex at the wall of a tube has a force of its own, the floor one in all") {
-  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(2, 2, 0.5)});
+  const PolyhedronBed bed = shape_bed(tube_of(4), testing::cube(), {pose_at(2, 2, 0.5)});
   const std::int32_t floor = bed.wall_name(0), round = floor + tube_wall;
   const auto forces =
       wall_forces(bed, {{0, round, 1.0}, {0, floor, 2.0}, {0, round + 3, 4.0}, {0, floor, 8.0}}, {})
@@ -90,13 +91,13 @@ TEST_CASE("each vertex at the wall of a tube has a force of its own, the floor o
 }
 
 TEST_CASE("a grain alone in a tube slides and spins, which a turn about the axis amounts to") {
-  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(2.5, 2, 0.5)});
+  const PolyhedronBed bed = shape_bed(tube_of(4), testing::cube(), {pose_at(2.5, 2, 0.5)});
   CHECK(zero_modes(bed, {{0, bed.wall_name(0), 1.0}}) == 3);
 }
 
 // Three ways to move on the floor, less one for each direction in which the wall pushes it.
 TEST_CASE("the wall of a tube pushes each vertex towards the axis from where that is") {
-  const PolyhedronBed bed = make_bed(tube_of(4), testing::cube(), {pose_at(3.4, 2, 0.5)});
+  const PolyhedronBed bed = shape_bed(tube_of(4), testing::cube(), {pose_at(3.4, 2, 0.5)});
   const std::vector<Vector>& vertices = bed.shapes.front().vertices;
   std::vector<std::int32_t> left, right;  // of the side towards the wall
   for (std::size_t v = 0; v < vertices.size(); ++v) {

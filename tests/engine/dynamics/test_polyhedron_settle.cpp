@@ -15,6 +15,7 @@ using testing::always;
 using testing::kernels;
 using testing::periodic;
 using testing::pose_at;
+using testing::shape_bed;
 using testing::walls;
 
 PackingSpec small_pinacoids(std::uint64_t key = 1) {
@@ -96,7 +97,7 @@ TEST_CASE("a bed of hulls, which have no closed form, settles too", "[slow]") {
 
 TEST_CASE("forces of a settled stack are those on its grains and between them") {
   PolyhedronBed bed =
-      make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5), pose_at(3, 3, 1.5)});
+      shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5), pose_at(3, 3, 1.5)});
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
   accuracy.residual_tolerance = 5e-3;
@@ -129,9 +130,9 @@ TEST_CASE(
 
 /// Three grains above each other and one beside them, in the air.
 PolyhedronBed few_grains(const ConvexShape& shape) {
-  return make_bed({4, 4, periodic, walls}, shape,
-                  {pose_at(2, 2, 0.8), pose_at(2.1, 2.2, 2),
-                   pose_at(2, 2, 3.2, Quaternion(0.8, 0.6, 0, 0)), pose_at(3.3, 2, 1)});
+  return shape_bed({4, 4, periodic, walls}, shape,
+                   {pose_at(2, 2, 0.8), pose_at(2.1, 2.2, 2),
+                    pose_at(2, 2, 3.2, Quaternion(0.8, 0.6, 0, 0)), pose_at(3.3, 2, 1)});
 }
 
 // f32 knows forces to 6e-8 of a weight, and 1e-12 is asked for. Nine rounds of 80 to 120 steps
@@ -271,8 +272,8 @@ TEST_CASE("turning grains in f64 come to rest a hundred times closer than f32 ca
   accuracy.max_steps = 200;
   const auto settled_in = [&](Precision precision) {
     accuracy.precision = precision;
-    PolyhedronBed stack = make_bed({6, 6, periodic, walls}, testing::cube(),
-                                   {pose_at(3, 3, 0.5), pose_at(3.1, 3.07, 1.5)});
+    PolyhedronBed stack = shape_bed({6, 6, periodic, walls}, testing::cube(),
+                                    {pose_at(3, 3, 0.5), pose_at(3.1, 3.07, 1.5)});
     return settle(accuracy, kernels(), stack, always);
   };
   const SettleReport exact = settled_in(Precision::f64);
@@ -296,8 +297,8 @@ TEST_CASE("saved bytes of spheres are not taken for polyhedra") {
 }
 
 TEST_CASE("a stack that rests as it is given stays as it is") {
-  PolyhedronBed bed = make_bed({6, 6, walls, walls}, testing::cube(),
-                               {pose_at(0.5, 0.5, 0.5), pose_at(0.5, 0.5, 1.5)});
+  PolyhedronBed bed = shape_bed({6, 6, walls, walls}, testing::cube(),
+                                {pose_at(0.5, 0.5, 0.5), pose_at(0.5, 0.5, 1.5)});
   Accuracy accuracy;
   accuracy.precision = Precision::f64;
   accuracy.contact_tolerance = 1.0;  // corners in corners: more constraints than a grain can use

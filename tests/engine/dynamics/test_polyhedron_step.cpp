@@ -17,6 +17,7 @@ namespace {
 using testing::kernels;
 using testing::periodic;
 using testing::pose_at;
+using testing::shape_bed;
 using testing::walls;
 
 /// Steps that repair overlaps whole and are solved to 1e-9 m g.
@@ -41,7 +42,7 @@ TEMPLATE_TEST_CASE("a cube on the floor rests on four corners that carry and do 
                    float, double) {
   // Solved to 1e-9 m g; f32 rounds at 1e-7 of the motions.
   const double margin = std::is_same_v<TestType, float> ? 1e-5 : 1e-8;
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   StepState<Polyhedron, TestType> state;
   StepSettings settings = tight_steps(0);
   settings.limits.iterations = 2000;
@@ -65,7 +66,7 @@ TEMPLATE_TEST_CASE("a cube on the floor rests on four corners that carry and do 
 PolyhedronBed cube_stack(int cubes) {
   std::vector<Pose> poses;
   for (int k = 0; k < cubes; ++k) poses.push_back(pose_at(3, 3, 0.5 + k));
-  return make_bed({6, 6, periodic, walls}, testing::cube(), poses);
+  return shape_bed({6, 6, periodic, walls}, testing::cube(), poses);
 }
 
 TEST_CASE("a stack of 20 cubes stands still, each face carrying the weight above it") {
@@ -128,7 +129,7 @@ TEST_CASE("a pinacoid tipped by 20 degrees comes to lie flat on its largest face
     const double angle = draw.uniform(0, 6.28);
     const Vector axis(std::cos(angle), std::sin(angle), 0);
     const Quaternion tipped = Quaternion(Eigen::AngleAxisd(0.35, axis)) * down;
-    PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 0.75, tipped)});
+    PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 0.75, tipped)});
     StepState<Polyhedron, double> state;
     take_steps(400, tight_steps(0.9), bed, state);
     const Lie lie = lie_of(bed, 0);
@@ -175,7 +176,7 @@ TEST_CASE("no grain moves or turns further in a step than the longest motion") {
         Quaternion::FromTwoVectors(Vector::UnitZ(), testing::random_direction(draw));
     poses.push_back(pose_at(2, 2, 0.5, turn, k < 20 ? 0.2 : 3.0));
   }
-  PolyhedronBed bed = make_bed({4, 4, periodic, walls}, testing::cube(), poses);
+  PolyhedronBed bed = shape_bed({4, 4, periodic, walls}, testing::cube(), poses);
   StepState<Polyhedron, double> state;
   StepSettings settings = tight_steps(0.9);
   settings.limits.iterations = 5;
@@ -215,7 +216,7 @@ TEST_CASE("steps of prisms with 32 sides are solved within a few hundred sweeps"
 
 TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
   const ConvexShape shape = pinacoid({});
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 50)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, shape, {pose_at(3, 3, 50)});
   bed.spin[0] = Vector(0.02, -0.1, 0.05);
   const auto momentum = [&] {
     return Vector(bed.pose(0).orientation * shape.inertia.cwiseProduct(bed.spin[0]));
@@ -228,8 +229,8 @@ TEST_CASE("a free grain keeps its angular momentum while it tumbles") {
 }
 
 TEST_CASE("a grain that spins moves its corners no further than it may move in the air") {
-  PolyhedronBed bed = make_bed({9, 9, periodic, walls}, testing::cube(),
-                               {pose_at(4, 4, 50, Quaternion::Identity(), 3.0)});
+  PolyhedronBed bed = shape_bed({9, 9, periodic, walls}, testing::cube(),
+                                {pose_at(4, 4, 50, Quaternion::Identity(), 3.0)});
   bed.spin[0] = Vector(0.0, 0.0, 0.1);
   StepState<Polyhedron, double> state;
   StepSettings settings = tight_steps(1.0);
@@ -239,7 +240,7 @@ TEST_CASE("a grain that spins moves its corners no further than it may move in t
 }
 
 TEST_CASE("velocities and spins stay as they are when steps become shorter or longer") {
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 50)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 50)});
   bed.motion[0].x = 0.04;
   bed.spin[0] = Vector(0.02, -0.1, 0.05);
   StepState<Polyhedron, double> state;
@@ -252,8 +253,8 @@ TEST_CASE("grains are said to have sunk where the balls within them overlap by h
   for (const ConvexShape& shape : {pinacoid({}), testing::cube()}) {
     for (const double share : {0.4, 0.6}) {
       const double touching = 2 * shape.inradius;
-      PolyhedronBed bed = make_bed({6, 6, periodic, walls}, shape,
-                                   {pose_at(3, 3, 4), pose_at(3, 3, 4 + share * touching)});
+      PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, shape,
+                                    {pose_at(3, 3, 4), pose_at(3, 3, 4 + share * touching)});
       StepState<Polyhedron, double> state;
       const double sunk = step(tight_steps(0), kernels(), bed, state).sunk;
       CHECK(sunk == about(share < 0.5 ? 0.1 * touching : 0.0, 1e-12));
@@ -350,7 +351,7 @@ TEST_CASE("a settled bed of pinacoids balances its weight and is isostatic", "[s
 /// A cube above the floor, tilted by 0.1 about an edge of its own.
 PolyhedronBed tilted_cube() {
   const Quaternion tilt(Eigen::AngleAxisd(0.1, Vector::UnitY()));
-  return make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.56, tilt)});
+  return shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.56, tilt)});
 }
 
 TEST_CASE("a second step on the same contacts ends where one on new ones does, to second order") {
@@ -390,7 +391,7 @@ TEST_CASE("the iterations of all steps on the same contacts are told") {
 TEST_CASE("after a long way contacts are found anew") {
   StepSettings settings;
   settings.steps = 2;
-  PolyhedronBed bed = make_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 3)});
+  PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 3)});
   bed.motion[0].z = -2.0 * longest_on_same_contacts;
   StepState<Polyhedron, float> state;
   CHECK(step(settings, kernels(), bed, state).steps == 1);

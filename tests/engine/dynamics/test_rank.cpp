@@ -75,7 +75,7 @@ TEST_CASE("a row that is bent, however little, gives way: all its contacts are i
 
 /// Rank of a bed of cubes after a well-solved step from rest.
 std::int64_t rank_of_cubes(const Box& box, const std::vector<Pose>& poses) {
-  PolyhedronBed bed = make_bed(box, testing::cube(), poses);
+  PolyhedronBed bed = testing::shape_bed(box, testing::cube(), poses);
   StepState<Polyhedron, double> state;
   StepSettings settings;
   settings.momentum = 0;

@@ -40,21 +40,34 @@ std::vector<Vector> random_bonds(Draw& draw, int count) {
   return bonds;
 }
 
+/// Of pairs of grains that touch in these directions, far from each other, and of a single grain.
+BondOrder order_of(const std::vector<Vector>& bonds) {
+  std::vector<PlacedSphere> spheres = {{2, 2, 8, 0.5}};  // no bond, no order
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    const double x = 4.0 * double(k % 20) + 2, y = 4.0 * double(k / 20) + 2;
+    const Vector& u = bonds[k];
+    spheres.push_back({x, y, 4, 0.5});
+    spheres.push_back({x + u.x(), y + u.y(), 4 + u.z(), 0.5});
+  }
+  SphereBed bed = make_bed({80, 80, periodic, walls}, spheres);
+  const Touching near = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
+  return bond_order(bed, near, {0, 9});
+}
+
 TEST_CASE("the bond order is that of the definition") {
   Draw draw(1);
   for (const int count : {1, 2, 5, 12, 100}) {
     const auto bonds = random_bonds(draw, count);
-    CHECK(bond_order(bonds) == Approx(q6_by_definition(bonds)).epsilon(1e-12));
+    CHECK(order_of(bonds).global == Approx(q6_by_definition(bonds)).epsilon(1e-12));
   }
 }
 
 // Steinhardt, Nelson, Ronchetti (1983), table I.
 TEST_CASE("bonds of a simple cubic lattice and of an icosahedron have their known order") {
-  CHECK(bond_order(std::vector<Vector>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) ==
+  CHECK(order_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).global ==
         Approx(std::sqrt(1.0 / 8.0)).epsilon(1e-12));
   const double g = (1 + std::sqrt(5.0)) / 2, r = std::sqrt(1 + g * g), a = 1 / r, b = g / r;
-  CHECK(bond_order(std::vector<Vector>{
-            {0, a, b}, {0, a, -b}, {a, b, 0}, {a, -b, 0}, {b, 0, a}, {b, 0, -a}}) ==
+  CHECK(order_of({{0, a, b}, {0, a, -b}, {a, b, 0}, {a, -b, 0}, {b, 0, a}, {b, 0, -a}}).global ==
         about(0.66332, 1e-5));
 }
 
@@ -67,19 +80,9 @@ TEST_CASE("a face-centred block has the order of its lattice, globally and local
 }
 
 TEST_CASE("order of single grains without common direction is local only") {
-  // Pairs in every direction, far from each other: each grain has one bond, of Q6 = 1.
+  // Each grain has one bond, of Q6 = 1.
   Draw draw(7);
-  std::vector<PlacedSphere> spheres;
-  for (int k = 0; k < 400; ++k) {
-    const auto u = draw.direction();
-    const double x = 4.0 * (k % 20) + 2, y = 4.0 * (k / 20) + 2;
-    spheres.push_back({x, y, 4, 0.5});
-    spheres.push_back({x + u.x, y + u.y, 4 + u.z, 0.5});
-  }
-  spheres.push_back({2, 2, 8, 0.5});  // no bond, no order
-  SphereBed bed = make_bed({80, 80, periodic, walls}, spheres);
-  const Touching near = find_touching(bed, longest_bond_gap, kernels_for(best_isa()));
-  const BondOrder order = bond_order(bed, near, {0, 9});
+  const BondOrder order = order_of(random_bonds(draw, 400));
   CHECK(order.local == Approx(1.0));
   CHECK(order.global < 3.0 / std::sqrt(400.0));  // a mean of 400 random directions
 }

@@ -17,6 +17,7 @@ namespace {
 using testing::Draw;
 using testing::periodic;
 using testing::pose_at;
+using testing::shape_bed;
 
 /// Two cubes on the floor, one on each of them a brick of half its height, the second of which
 /// bears another cube.
@@ -132,7 +133,7 @@ TEST_CASE("a component without grains in the slab has no means, a bed of one sha
   CHECK(components[0].solid_fraction == 0);
   CHECK(components[1].slab_share == 1);
   const PolyhedronBed alone =
-      make_bed({4, 4, periodic, periodic}, testing::cube(), {pose_at(1, 1, 0.5)});
+      shape_bed({4, 4, periodic, periodic}, testing::cube(), {pose_at(1, 1, 0.5)});
   CHECK(measure_components(alone, {}, {}, {}, {0, 2}, 0.01).empty());
 }
 

@@ -5,6 +5,7 @@
 #include "engine/measure/contact_places.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
@@ -39,8 +40,8 @@ TEST_CASE("what touches a wall with a gap does so midway") {
   const Touching of_sphere = find_touching(spheres, 0.1, kernels());
   REQUIRE(of_sphere.walls.size() == 1);
   check_place(contact_place(spheres, of_sphere.walls[0], 0.1), {0, -1, 0}, {3, 0.025, 2}, 1);
-  PolyhedronBed cube = make_bed({6, 6, periodic, walls}, testing::cube(),
-                                {{{3, 3, 0.55}, 1, Quaternion::Identity()}});
+  PolyhedronBed cube = testing::shape_bed({6, 6, periodic, walls}, testing::cube(),
+                                          {{{3, 3, 0.55}, 1, Quaternion::Identity()}});
   const Touching of_cube = find_touching(cube, 0.1, kernels());
   REQUIRE(of_cube.walls.size() == 1);
   check_place(contact_place(cube, of_cube.walls[0], 0.1), {0, 0, -1}, {3, 3, 0.025}, 3);
@@ -60,12 +61,12 @@ PolyhedronBed cubes() {
   const Vector diagonal = Vector(1, 1, 1).normalized();
   const Quaternion on_corner = Quaternion::FromTwoVectors(diagonal, Vector::UnitZ());
   const double half = 0.5, edge = std::sqrt(0.5), corner = std::sqrt(0.75), gap = 0.001;
-  return make_bed({9, 9, periodic, walls}, testing::cube(),
-                  {{{2, 2, half}, 1, Quaternion::Identity()},
-                   {{2, 2, 3 * half + gap}, 1, Quaternion::Identity()},
-                   {{2, 2, 4 * half + edge + 2 * gap}, 1, on_edge},
-                   {{6, 2, half}, 1, Quaternion::Identity()},
-                   {{6, 2, 2 * half + corner + gap}, 1, on_corner}});
+  return testing::shape_bed({9, 9, periodic, walls}, testing::cube(),
+                            {{{2, 2, half}, 1, Quaternion::Identity()},
+                             {{2, 2, 3 * half + gap}, 1, Quaternion::Identity()},
+                             {{2, 2, 4 * half + edge + 2 * gap}, 1, on_edge},
+                             {{6, 2, half}, 1, Quaternion::Identity()},
+                             {{6, 2, 2 * half + corner + gap}, 1, on_corner}});
 }
 
 TEST_CASE("cubes touch at a corner, along an edge or over a face, in its middle") {
@@ -96,7 +97,7 @@ TEST_CASE("a contact wider than the tolerance that it is asked for is one at a p
 TEST_CASE("every vertex of a cube lies at a tube with a normal and a gap of its own") {
   // Its corners are at 1 / 4 and 5 / 4 d along x from the axis, 1 / 2 d to both sides.
   const PolyhedronBed bed =
-      make_bed(tube_of(4), testing::cube(), {{{2.75, 2, 1}, 1, Quaternion::Identity()}});
+      testing::shape_bed(tube_of(4), testing::cube(), {{{2.75, 2, 1}, 1, Quaternion::Identity()}});
   const auto places = vertex_places(bed, {0, 1, 0});
   REQUIRE(places.size() == 8);
   for (const VertexPlace& at : places) {

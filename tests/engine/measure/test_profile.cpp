@@ -490,8 +490,8 @@ TEST_CASE("a component's profile is that of its grains alone, and says how they 
   const Slab slab{0.5, 4};
   const PolyhedronBed bed = make_bed(box, shapes, {0, 0, 0, 1}, both);
   const auto parts = component_profiles(ProfileAxis::y, bed, {}, slab, {2, 0, 1e-4});
-  const Profile alone =
-      profile_along(ProfileAxis::y, make_bed(box, shapes.front(), bricks), {}, slab, {2, 0, 1e-4});
+  const Profile alone = profile_along(
+      ProfileAxis::y, testing::shape_bed(box, shapes.front(), bricks), {}, slab, {2, 0, 1e-4});
   REQUIRE(parts.size() == 2);
   for (std::size_t k : {0, 1}) {
     CHECK(parts[0].bins[k].solid_fraction == alone.bins[k].large);

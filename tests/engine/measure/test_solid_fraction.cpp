@@ -43,7 +43,7 @@ TEST_CASE("a share of small grains is that of their volume in the slab, however 
   };
   const ConvexShape pillar = *shape_of(CuboidSize{1, 1, 4}).shape;  // its longest edge lies along z
   const PolyhedronBed pillars =
-      make_bed({8, 4, periodic, walls}, pillar, {upright(2, 1.0), upright(5, 0.5)});
+      testing::shape_bed({8, 4, periodic, walls}, pillar, {upright(2, 1.0), upright(5, 0.5)});
   REQUIRE(pillars.shape(0).volume == Approx(4));
   CHECK(small_share(pillars, {-infinity, infinity}, 0.3) == Approx(0.5 / 4.5).epsilon(1e-14));
   const SphereBed spheres =
@@ -139,7 +139,7 @@ TEST_CASE("large grains have wide columns, so that a block of them has its heigh
   }
   const Box box{12, 15, periodic, periodic};
   CHECK(surface_height(make_bed(box, centres)) == Approx(9));
-  CHECK(surface_height(make_bed(box, testing::cube(), poses)) == Approx(9));
+  CHECK(surface_height(testing::shape_bed(box, testing::cube(), poses)) == Approx(9));
 }
 
 TEST_CASE("a few grains on a wide floor have no surface, and take no memory for its columns") {

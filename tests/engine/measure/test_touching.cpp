@@ -11,6 +11,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/shape_beds.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace grainsweep {
@@ -91,12 +92,12 @@ TEST_CASE("no grains, or one in the air, touch nothing") {
 TEST_CASE("grains with corners touch by the distance of their surfaces") {
   // Faces .001 apart, an edge .02 above a face, a corner on the floor, one cube in another.
   const Quaternion on_edge(Eigen::AngleAxisd(0.78539816339744831, Vector::UnitX()));
-  PolyhedronBed bed = make_bed({9, 9, testing::periodic, testing::walls}, testing::cube(),
-                               {{{1, 1, 0.5}, 1, Quaternion::Identity()},
-                                {{2.001, 1, 0.5}, 1, Quaternion::Identity()},
-                                {{1, 1, 1.02 + std::sqrt(0.5)}, 1, on_edge},
-                                {{5, 5, 5}, 1, Quaternion::Identity()},
-                                {{5.9, 5, 5}, 1, Quaternion::Identity()}});
+  PolyhedronBed bed = testing::shape_bed({9, 9, testing::periodic, testing::walls}, testing::cube(),
+                                         {{{1, 1, 0.5}, 1, Quaternion::Identity()},
+                                          {{2.001, 1, 0.5}, 1, Quaternion::Identity()},
+                                          {{1, 1, 1.02 + std::sqrt(0.5)}, 1, on_edge},
+                                          {{5, 5, 5}, 1, Quaternion::Identity()},
+                                          {{5.9, 5, 5}, 1, Quaternion::Identity()}});
   const Touching touching = find_touching(bed, 0.05, kernels());
   const auto gap = [&](std::int32_t a, std::int32_t b) {
     for (const TouchingPair& pair : touching.pairs) {
@@ -116,12 +117,12 @@ TEST_CASE("grains with corners touch by the distance of their surfaces") {
 // 1e-14 d: rounding of coordinates in a box of this size.
 TEST_CASE("a cube has the same gap from each wall and the floor when its face is as far from it") {
   const double gap = 1e-9, near = 0.5 + gap;
-  PolyhedronBed bed = make_bed({7, 5, walls, walls}, testing::cube(),
-                               {{{3, 2, near}, 1, Quaternion::Identity()},
-                                {{near, 2, 2}, 1, Quaternion::Identity()},
-                                {{7 - near, 2, 2}, 1, Quaternion::Identity()},
-                                {{3, near, 2}, 1, Quaternion::Identity()},
-                                {{3, 5 - near, 2}, 1, Quaternion::Identity()}});
+  PolyhedronBed bed = testing::shape_bed({7, 5, walls, walls}, testing::cube(),
+                                         {{{3, 2, near}, 1, Quaternion::Identity()},
+                                          {{near, 2, 2}, 1, Quaternion::Identity()},
+                                          {{7 - near, 2, 2}, 1, Quaternion::Identity()},
+                                          {{3, near, 2}, 1, Quaternion::Identity()},
+                                          {{3, 5 - near, 2}, 1, Quaternion::Identity()}});
   const Touching touching = find_touching(bed, 0.01, kernels());
   std::set<std::int32_t> grains, found;
   for (const TouchingWall& wall : touching.walls) {

@@ -163,8 +163,8 @@ TEST_CASE("two grains that part on one side may meet on the other of a narrow bo
     return testing::pose_at(x, 1, 2, Quaternion::FromTwoVectors(tip, Vector(tip_x, 0, 0)));
   };
   // Back to back, and tip to tip across the box.
-  PolyhedronBed bed = make_bed({least, least, periodic, periodic}, spike,
-                               {pointed(least / 2, 1), pointed(0.05, -1)});
+  PolyhedronBed bed = testing::shape_bed({least, least, periodic, periodic}, spike,
+                                         {pointed(least / 2, 1), pointed(0.05, -1)});
   Search search;
   std::size_t met = 0;
   for (int k = 0; k < 60; ++k) {

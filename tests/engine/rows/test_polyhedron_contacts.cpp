@@ -121,9 +121,9 @@ struct HeldCubes {
 
   HeldCubes(const Quaternion& of_lower, double height_of_lower, const Quaternion& of_upper,
             double height_of_upper)
-      : bed(make_bed({6, 6, periodic, walls}, testing::cube(),
-                     {testing::pose_at(3, 3, height_of_lower, of_lower),
-                      testing::pose_at(3, 3, height_of_upper, of_upper)})) {
+      : bed(testing::shape_bed({6, 6, periodic, walls}, testing::cube(),
+                               {testing::pose_at(3, 3, height_of_lower, of_lower),
+                                testing::pose_at(3, 3, height_of_upper, of_upper)})) {
     StepState<Polyhedron, double> state;
     const StepSettings settings = solved_step();
     step(settings, kernels_for(best_isa()), bed, state);
@@ -187,7 +187,7 @@ TEST_CASE("each grain is held by the height of its own side of the contact, whic
   const Box box{9, 9, periodic, walls};
   const Quaternion on_corner =
       Quaternion::FromTwoVectors(Vector(1, 1, 1).normalized(), Vector::UnitZ());
-  const auto [corner, face] = held_by_a_step(make_bed(
+  const auto [corner, face] = held_by_a_step(testing::shape_bed(
       box, testing::cube(),
       {testing::pose_at(3, 3, 1.0 + std::sqrt(0.75), on_corner), testing::pose_at(3, 3, 0.5)}));
   CHECK(face.isApprox(Vector(0.5, 0.5, 0.0), 1e-6));
@@ -197,9 +197,9 @@ TEST_CASE("each grain is held by the height of its own side of the contact, whic
   const Quaternion edge_along_y(Eigen::AngleAxisd(0.25 * pi, Vector::UnitY()));
   const double height = std::sqrt(0.5);
   const auto [lower, upper] =
-      held_by_a_step(make_bed(box, testing::cube(),
-                              {testing::pose_at(4, 4, height, edge_along_x),
-                               testing::pose_at(4, 4, 4.0 * height, edge_along_y, 2.0)}));
+      held_by_a_step(testing::shape_bed(box, testing::cube(),
+                                        {testing::pose_at(4, 4, height, edge_along_x),
+                                         testing::pose_at(4, 4, 4.0 * height, edge_along_y, 2.0)}));
   CHECK(lower.isApprox(8.0 * height * Vector(0.0, 0.5, 0.5), 1e-6));
   CHECK(upper.isApprox(16.0 * height * Vector(0.5, 0.0, 0.5), 1e-6));
 }

@@ -11,11 +11,12 @@ namespace {
 using testing::Draw;
 using testing::periodic;
 using testing::pose_at;
+using testing::shape_bed;
 using testing::walls;
 
 PolyhedronBed one_grain(double scale = 1) {
-  return make_bed({5, 4, periodic, walls}, pinacoid({}),
-                  {pose_at(1, 2, 3, Quaternion::Identity(), scale)});
+  return shape_bed({5, 4, periodic, walls}, pinacoid({}),
+                   {pose_at(1, 2, 3, Quaternion::Identity(), scale)});
 }
 
 TEST_CASE("a grain is turned by exactly its angle vector, whatever its length") {
@@ -58,15 +59,15 @@ TEST_CASE("mass goes with the cube of the scale and moments with its fifth power
 TEST_CASE("pairs are seen across periodic sides and not across walls") {
   const Box box{5, 4, periodic, walls};
   const PolyhedronBed bed =
-      make_bed(box, pinacoid({}), {pose_at(0.25, 0.25, 1), pose_at(4.75, 3.75, 1.5)});
+      shape_bed(box, pinacoid({}), {pose_at(0.25, 0.25, 1), pose_at(4.75, 3.75, 1.5)});
   CHECK(nearest_difference(bed, 0, 1) == Vector(-0.5, 3.5, 0.5));
   CHECK(nearest_difference(bed, 1, 0) == Vector(0.5, -3.5, -0.5));
   CHECK(pair_pose(bed, 0, 1).centre == Vector(-0.5, 3.5, 0.5));
 }
 
 TEST_CASE("wrapping brings grains back into the box along periodic axes only") {
-  PolyhedronBed bed = make_bed({5, 4, periodic, walls}, pinacoid({}),
-                               {pose_at(-0.5, -0.5, 1), pose_at(5.5, 4.5, -1)});
+  PolyhedronBed bed = shape_bed({5, 4, periodic, walls}, pinacoid({}),
+                                {pose_at(-0.5, -0.5, 1), pose_at(5.5, 4.5, -1)});
   wrap(bed);
   CHECK(bed.pose(0).centre == Vector(4.5, -0.5, 1));
   CHECK(bed.pose(1).centre == Vector(0.5, 4.5, -1));
