@@ -100,10 +100,6 @@ std::vector<UnitGrain> unit_grains(const PolyhedronBed& bed) {
   for (const ConvexShape& shape : bed.shapes) units.push_back({shape.volume, surface_area(shape)});
   return units;
 }
-std::size_t component_of(const SphereBed& /*bed*/, std::size_t /*grain*/) { return 0; }
-std::size_t component_of(const PolyhedronBed& bed, std::size_t grain) {
-  return bed.component(grain);
-}
 
 /// What each grain would weigh in shares of this kind if its size were 1, over what one of the
 /// first component, or a sphere, would.
@@ -114,7 +110,7 @@ std::vector<double> unit_weights(const Bed<Kind>& bed, SizeWeight by) {
   const auto part = by == SizeWeight::area ? &UnitGrain::surface : &UnitGrain::volume;
   const std::vector<UnitGrain> units = unit_grains(bed);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = units[component_of(bed, i)].*part / (units.front().*part);
+    weights[i] = units[bed.component(i)].*part / (units.front().*part);
   }
   return weights;
 }
@@ -125,7 +121,7 @@ void measure_sizes(const Bed<Kind>& bed, PackingResult& result) {
   double volumes = 0.0, surfaces = 0.0, by_volume = 0.0, diameters = 0.0;
   for (std::size_t i = 0; i < bed.grains(); ++i) {
     const double diameter = 2.0 * bed.position[i].w;
-    const UnitGrain& unit = units[component_of(bed, i)];
+    const UnitGrain& unit = units[bed.component(i)];
     const double volume = unit.volume * diameter * diameter * diameter;
     diameters += diameter;
     volumes += volume;

@@ -63,11 +63,6 @@ UnitVector normal_at(const PolyhedronBed& bed, const ForceContact& contact) {
   return wall.normal(place.x(), place.y(), place.z());
 }
 
-bool can_turn(const SphereBed& /*bed*/, std::int32_t /*grain*/) { return false; }
-bool can_turn(const PolyhedronBed& bed, std::int32_t grain) {
-  return bed.turns(static_cast<std::size_t>(grain));
-}
-
 /// Whether a cluster turns about the axis of a tube, which keeps all gaps, in a way that its slides
 /// and spins do not amount to, to first order: for grains one above the other they do.
 bool turns_in_tube(const SphereBed& bed, const Hold& hold) {
@@ -88,7 +83,7 @@ bool turns_in_tube(const PolyhedronBed& bed, const Hold& hold) {
 /// The grain of a contact that its normal, if it turns, holds.
 template <class Kind>
 std::size_t turning_grain(const Bed<Kind>& bed, const ForceContact& contact) {
-  const bool is_b = bed.is_grain(contact.b) && !can_turn(bed, contact.a);
+  const bool is_b = bed.is_grain(contact.b) && !bed.turns(static_cast<std::size_t>(contact.a));
   return static_cast<std::size_t>(is_b ? contact.b : contact.a);
 }
 
@@ -96,7 +91,8 @@ std::size_t turning_grain(const Bed<Kind>& bed, const ForceContact& contact) {
 template <class Kind>
 std::int32_t wall_of(const Bed<Kind>& bed, const ForceContact& contact) {
   const std::int32_t wall = contact.b - bed.wall_name(0);
-  const bool is_vertex = bed.box.is_tube && wall >= tube_wall && can_turn(bed, contact.a);
+  const bool is_vertex =
+      bed.box.is_tube && wall >= tube_wall && bed.turns(static_cast<std::size_t>(contact.a));
   return is_vertex ? wall_of_vertex(wall - tube_wall) : wall;
 }
 
@@ -235,7 +231,7 @@ std::int64_t zero_modes(const Bed<Kind>& bed, const std::vector<ForceContact>& c
   for (const Hold& hold : holds_of(bed, contacts)) {
     if (!hold.stands) continue;
     modes += 3 - static_cast<std::int64_t>(hold.walls.count());
-    const bool spins = hold.is_grain && can_turn(bed, hold.grains.front());
+    const bool spins = hold.is_grain && bed.turns(static_cast<std::size_t>(hold.grains.front()));
     modes += spins && hold.walls.count() == 1 ? 1 : 0;
     modes += turns_in_tube(bed, hold) ? 1 : 0;
   }

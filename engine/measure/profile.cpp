@@ -280,17 +280,13 @@ double distance_from_walls(const Box& box, double x, double y) {
   return std::min(std::min(x, box.length - x), std::min(y, box.width - y));
 }
 
-/// Radius of a ball about its centre that holds a grain, d.
-double ball_radius(const SphereBed& bed, std::size_t i) { return bed.position[i].w; }
-double ball_radius(const PolyhedronBed& bed, std::size_t i) { return bed.circumradius(i); }
-
 /// How far a grain reaches towards the nearest upright wall, and away from it, d; upper bounds.
 template <class Kind>
 Span reach_from_walls(const Bed<Kind>& bed, std::size_t i) {
   const Box& box = bed.box;
   if (box.is_tube) {
     const Record<double>& p = bed.position[i];
-    const double at = distance_from_walls(box, p.x, p.y), radius = ball_radius(bed, i);
+    const double at = distance_from_walls(box, p.x, p.y), radius = bed.circumradius(i);
     return {at - radius, std::min(at + radius, box.length / 2.0)};
   }
   const Span x = span_of(bed, i, 0), y = span_of(bed, i, 1);

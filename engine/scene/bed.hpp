@@ -109,7 +109,12 @@ template <class Kind>
 struct Bed;
 
 template <>
-struct Bed<Sphere> : Grains {};
+struct Bed<Sphere> : Grains {
+  // As those of polyhedra, for what is the same for both.
+  std::size_t component(std::size_t /*grain*/) const { return 0; }
+  double circumradius(std::size_t grain) const { return position[grain].w; }
+  bool turns(std::size_t /*grain*/) const { return false; }
+};
 using SphereBed = Bed<Sphere>;
 
 /// Grains of one convex shape, or of several: the components of a mixture, spheres among them. The
