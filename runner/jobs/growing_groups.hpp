@@ -55,8 +55,8 @@ class GrowingSweep {
 /// includes groups with requests of their own, which it would have to follow.
 Diagnostics unreachable_wishes(const Sweep& whole);
 
-/// A note at each requested accuracy that holds for means of which no bound of settling is known, so
-/// that it is one of the scatter alone.
+/// A note at each requested accuracy that holds for means of which no bound of settling is known,
+/// so that it is one of the scatter alone.
 Diagnostics notes_on_unbounded_wishes(const Sweep& whole);
 
 /// What a sweep whose groups grow takes at most, from the costs of all its jobs.

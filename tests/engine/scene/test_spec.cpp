@@ -98,7 +98,7 @@ TEST_CASE("walls along x, too, are as far apart as the largest grain") {
   };
   CHECK(length(1.2).empty());
   CHECK(length(1.1) ==
-        Messages{"box.length: must lie in [1.13334, 10000] (the largest grain between two walls), "
+        Messages{"box.length: must lie in [1.13333, 10000] (the largest grain between two walls), "
                  "is 1.1"});
   CHECK(length(10'001.0).size() == 1);
 }
