@@ -18,6 +18,7 @@ namespace {
 
 using Errors = std::vector<SpecError>;
 
+constexpr double shortest_side = 1.0;            // d; of a large grain
 constexpr double longest_side = 10'000.0;        // d; cell indices stay far below 32 bits
 constexpr std::int64_t max_grains = 10'000'000;  // grain indices are 32 bits wide
 constexpr double settled_wall_overlap = 0.01;    // d; far above that of any settled bed
@@ -98,15 +99,15 @@ bool check_sizes(const SizesSpec& sizes, Errors& errors) {
 
 /// One horizontal side. Walls must hold the largest grain; a periodic side must be so long that no
 /// grain meets two images of the same neighbour, or its own.
-bool check_side(const char* path, double side, Boundary boundary, double shortest, double largest,
-                bool is_tube, Errors& errors) {
+bool check_side(const char* path, double side, Boundary boundary, double largest, bool is_tube,
+                Errors& errors) {
   const bool walls = boundary == Boundary::walls;
-  const double needed =
-      walls ? std::max(shortest, largest) : std::max(shortest, 2.0 * (largest + image_margin));
+  const double needed = std::max(shortest_side, walls ? largest : 2.0 * (largest + image_margin));
   if (side >= needed && side <= longest_side) return true;
   std::string reason;
-  if (!walls && needed > shortest) reason = " (periodic: twice the largest grain and a margin)";
-  if (walls && needed > shortest) {
+  if (!walls && needed > shortest_side)
+    reason = " (periodic: twice the largest grain and a margin)";
+  if (walls && needed > shortest_side) {
     reason = is_tube ? " (the largest grain in a tube)" : " (the largest grain between two walls)";
   }
   const bool is_in_metres = side > 0.0 && side < 0.2;
@@ -141,10 +142,10 @@ bool check_box(const Box& box, double largest, Errors& errors) {
                         "which has walls on all sides"});
       return false;
     }
-    return check_side("tube.diameter", box.length, Boundary::walls, 1.0, largest, true, errors);
+    return check_side("tube.diameter", box.length, Boundary::walls, largest, true, errors);
   }
-  const bool length = check_side("box.length", box.length, box.x, 1.0, largest, false, errors);
-  const bool width = check_side("box.width", box.width, box.y, 1.0, largest, false, errors);
+  const bool length = check_side("box.length", box.length, box.x, largest, false, errors);
+  const bool width = check_side("box.width", box.width, box.y, largest, false, errors);
   return length && width;
 }
 
