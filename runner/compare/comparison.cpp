@@ -222,10 +222,9 @@ Comparison compare_with(const Published& value, const Family& family, const std:
 void add_width(Measured measured, double width, Comparison& row) {
   const PublishedFormula& formula = *row.published.formula;
   const double published = value_of_formula(formula.text, width);
-  const bool is_possible = std::isfinite(published) && (!is_share(row.published.quantity) ||
-                                                        (published >= 0.0 && published <= 1.0));
   const bool is_mean = measured.not_determined.empty() || is_mean_of_width(row.published.quantity);
-  if (!is_possible || !is_mean || !std::isfinite(measured.estimate.value)) {
+  if (!is_possible(row.published.quantity, published) || !is_mean ||
+      !std::isfinite(measured.estimate.value)) {
     ++row.without_value;
     return;
   }
@@ -275,13 +274,15 @@ Comparison compare_with_profile(const Published& value, const Family& family,
   const MeasuredProfile measured =
       measure_profile(value.quantity, value.width, distances, family, folder);
   row.group = measured.group == nullptr ? 0 : measured.group->number;
+  Published at_point = row.published;
+  at_point.profile->points.clear();  // a copy in each of them would be the square of their number
   for (std::size_t k = 0; k < distances.size(); ++k) {
     if (row.along.empty()) row.measured = measured.values[k];
     if (!measured.values[k].not_determined.empty()) {
       ++row.without_value;
       continue;
     }
-    Comparison at{row.family, row.title, row.published, measured.values[k]};
+    Comparison at{row.family, row.title, at_point, measured.values[k]};
     const double there = published.points[k].value;
     at.published.range = {there, there, published.error.of(there)};
     at.distance = distances[k];

@@ -273,6 +273,10 @@ bool is_share(std::string_view quantity) {
   return quantity.starts_with("phi") || quantity.starts_with("porosity");
 }
 
+bool is_possible(std::string_view quantity, double value) {
+  return std::isfinite(value) && (!is_share(quantity) || (value >= 0.0 && value <= 1.0));
+}
+
 bool is_of_family(const std::string& quantity) {
   const NamedQuantity* found = find_quantity(quantity);
   return found != nullptr && found->of_family != nullptr;

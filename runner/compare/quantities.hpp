@@ -26,6 +26,9 @@ std::string fault_of_quantity(const std::string& quantity, double width);
 /// Whether its values are shares of a volume, 0 to 1.
 bool is_share(std::string_view quantity);
 
+/// Whether it can have the value: a share of a volume none beyond 0 to 1, and none an infinite one.
+bool is_possible(std::string_view quantity, double value);
+
 /// Whether it is one value of a family, which belongs to no width.
 bool is_of_family(const std::string& quantity);
 

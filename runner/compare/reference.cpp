@@ -157,13 +157,11 @@ std::optional<PublishedFormula> read_formula(const Json& from, const std::string
   return std::nullopt;
 }
 
-/// Whether `value` is a number that the quantity can be; otherwise a problem is noted.
-bool is_possible(const std::string& quantity, double low, double high, const std::string& text,
-                 const std::string& pointer, Diagnostics& diagnostics) {
-  if (!is_share(quantity) || (low >= 0.0 && high <= 1.0)) return true;
+/// Notes a value that the quantity cannot have.
+void note_impossible(const std::string& text, const std::string& pointer,
+                     Diagnostics& diagnostics) {
   diagnostics.push_back(
       {pointer, "a share of the volume lies in [0, 1]; divide percentages by 100, is " + text});
-  return false;
 }
 
 /// The points of a list. Notes the first that is none.
@@ -180,7 +178,7 @@ void read_points(const Json& list, const std::string& quantity, const std::strin
                                      (one.is_array() ? shortened(one.dump()) : describe(one))});
       return;
     }
-    if (!is_possible(quantity, one[1], one[1], one[1].dump(), at, diagnostics)) return;
+    if (!is_possible(quantity, one[1])) return note_impossible(one[1].dump(), at, diagnostics);
     profile.points.push_back({one[0], one[1]});
   }
   std::stable_sort(profile.points.begin(), profile.points.end(),
@@ -257,9 +255,9 @@ Published read_published(const Json& from, const std::string& pointer, Diagnosti
         read_range(from["value"], error, child_pointer(pointer, "value"), diagnostics);
   }
   const auto& range = published.range;
-  if (range) {
-    is_possible(published.quantity, range->low, range->high, text_of(published),
-                child_pointer(pointer, "value"), diagnostics);
+  if (range && !(is_possible(published.quantity, range->low) &&
+                 is_possible(published.quantity, range->high))) {
+    note_impossible(text_of(published), child_pointer(pointer, "value"), diagnostics);
   }
   if (published.profile) {
     published.profile->error = error;
@@ -363,9 +361,9 @@ std::vector<PublishedProfile::Point> points_at(double width, const Published& pu
   const double last = std::min(std::floor(width / 2.0 / step), most);
   for (double k = 1.0; k <= last; ++k) {
     const double value = value_of_formula(profile.formula, width, k * step);
-    const bool is_possible =
-        std::isfinite(value) && (!is_share(published.quantity) || (value >= 0.0 && value <= 1.0));
-    if (is_possible) points.push_back({without_noise(k * step), value});
+    if (is_possible(published.quantity, value)) {
+      points.push_back({without_noise(k * step), value});
+    }
   }
   return points;
 }

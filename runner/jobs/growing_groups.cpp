@@ -141,10 +141,14 @@ Sweep called_for(const Sweep& whole, const Outcomes& outcomes) {
   return called;
 }
 
-/// Where a requested accuracy of the job's block is written.
-std::string place_of(const std::string& wish, const Sweep& whole, const Job& job) {
+/// Where the requested accuracies of the job's block are written.
+std::string place_of_wishes(const Sweep& whole, const Job& job) {
   const auto& pointers = whole.wish_pointers;
-  return (job.block < pointers.size() ? pointers[job.block] : "") + "/" + wish;
+  return job.block < pointers.size() ? pointers[job.block] : "";
+}
+
+std::string place_of(const std::string& wish, const Sweep& whole, const Job& job) {
+  return place_of_wishes(whole, job) + "/" + wish;
 }
 
 /// The presets whose beds may be off by less than `wish`, as an alternative; "" if there is none.
@@ -179,7 +183,7 @@ std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<co
   std::vector<const Job*> worst;
   for (const Job* job : jobs) {
     const auto same = std::find_if(worst.begin(), worst.end(), [&](const Job* other) {
-      return place_of("", whole, *other) == place_of("", whole, *job);
+      return place_of_wishes(whole, *other) == place_of_wishes(whole, *job);
     });
     if (same == worst.end()) {
       worst.push_back(job);
@@ -404,8 +408,7 @@ Diagnostics notes_on_unbounded_wishes(const Sweep& whole) {
     const ErrorWish wish{std::max(job.wish.solid_fraction, job.fit_wish.phi_bulk),
                          std::max(job.wish.coordination, job.fit_wish.z_bulk)};
     if (!wish.is_given() || is_bounded(job, wish)) continue;
-    const auto& pointers = whole.wish_pointers;
-    ++groups_at[job.block < pointers.size() ? pointers[job.block] : ""];
+    ++groups_at[place_of_wishes(whole, job)];
   }
   Diagnostics notes;
   for (const auto& [place, count] : groups_at) {

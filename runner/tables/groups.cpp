@@ -263,12 +263,11 @@ std::string as_in_jobs(const nlohmann::json& value) {
 }
 
 /// Walls not counted; nothing where its packings did not measure it.
-Spread coordination_at(double tolerance, const Group& group) {
+Spread mean_at(double tolerance, const Group& group) {
   std::vector<double> values;
   for (const Outcome& outcome : group.settled) {
-    for (const Coordination& at : outcome.result.coordination) {
-      if (at.gap_tolerance == tolerance) values.push_back(at.between_grains);
-    }
+    const Coordination* at = coordination_at(tolerance, outcome.result);
+    if (at != nullptr) values.push_back(at->between_grains);
   }
   return spread_of(std::move(values));
 }
@@ -449,6 +448,13 @@ Columns<Group> group_line_columns(const Varied& varied) {
   return columns;
 }
 
+const Coordination* coordination_at(double tolerance, const PackingResult& result) {
+  const auto at =
+      std::find_if(result.coordination.begin(), result.coordination.end(),
+                   [=](const Coordination& one) { return one.gap_tolerance == tolerance; });
+  return at == result.coordination.end() ? nullptr : &*at;
+}
+
 std::vector<double> further_tolerances(const std::vector<Group>& groups) {
   std::vector<double> tolerances;
   for (const Group& group : groups) {
@@ -480,7 +486,7 @@ Columns<Group> groups_columns(const std::vector<double>& further_tolerances, con
   for (const double tolerance : further_tolerances) {
     append_spread(columns, "coordination_at_" + cell(tolerance), "",
                   "coordination at a gap tolerance of so many d",
-                  [=](const Group& group) { return coordination_at(tolerance, group); });
+                  [=](const Group& group) { return mean_at(tolerance, group); });
   }
   append(columns, bias_columns());
   append(columns, varied_columns(varied));

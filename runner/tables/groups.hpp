@@ -201,6 +201,9 @@ void append_spread(Columns<Item>& columns, const std::string& name, const std::s
                      [=](const Item& item) { return cell(spread(item).error); }});
 }
 
+/// What a packing measured at a gap tolerance, d; null if it did not.
+const Coordination* coordination_at(double tolerance, const PackingResult& result);
+
 /// Every gap tolerance that some group has behind its first one, ascending.
 std::vector<double> further_tolerances(const std::vector<Group>& groups);
 

@@ -37,11 +37,9 @@ Column<Row> column_at(double tolerance, const std::string& name,
                       double Coordination::*coordination) {
   return {name + "_at_" + cell(tolerance), "", name + " at a gap tolerance of so many d",
           [=](const Row& row) {
-            if (!is_measured(row)) return std::string();
-            for (const Coordination& at : row.outcome->result.coordination) {
-              if (at.gap_tolerance == tolerance) return cell(at.*coordination);
-            }
-            return std::string();
+            const Coordination* at =
+                is_measured(row) ? coordination_at(tolerance, row.outcome->result) : nullptr;
+            return at == nullptr ? std::string() : cell(at->*coordination);
           }};
 }
 

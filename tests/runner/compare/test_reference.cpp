@@ -24,6 +24,14 @@ Published value_of(const std::string& members) {
   return reference_of(R"({"source": "S", "common": [{)" + members + "}]}").common.at(0);
 }
 
+/// The same of its one family.
+Published value_of_family(const std::string& members) {
+  return reference_of(R"({"source": "S", "families": [{"where": {}, "values": [{)" + members +
+                      "}]}]}")
+      .families.at(0)
+      .values.at(0);
+}
+
 TEST_CASE("values, ranges, errors and words are read and printed as they were published") {
   const Published z = value_of(R"("quantity": "Z_unconfined", "value": 6.027, "error": 0.012)");
   CHECK(z.quantity == "Z_unconfined");
@@ -179,11 +187,7 @@ TEST_CASE("all that is wrong in a file of published values is told, each with it
 
 TEST_CASE("a formula stands in place of the values at single widths") {
   const auto read = [](const std::string& members) {
-    return reference_of(
-               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "phi", )" +
-               members + "}]}]}")
-        .families.at(0)
-        .values.at(0);
+    return value_of_family(R"("quantity": "phi", )" + members);
   };
   const Published whole = read(R"("formula": "0.64 - 0.2/W", "from": 4, "to": 20, "error": 0.01)");
   CHECK(whole.text == "0.64 - 0.2/W ± 0.01");
@@ -210,11 +214,7 @@ TEST_CASE("a formula stands in place of the values at single widths") {
 
 TEST_CASE("a profile is a list of points over the distance from the wall") {
   const auto read = [](const std::string& members) {
-    return reference_of(
-               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "porosity", )" +
-               members + "}]}]}")
-        .families.at(0)
-        .values.at(0);
+    return value_of_family(R"("quantity": "porosity", )" + members);
   };
   const Published published = read(
       R"("width": 7, "profile": [[0.5, 0.3], [0, 1], [1, 0.4]], "relative_error": 0.1, "text": "M")");
@@ -256,11 +256,7 @@ TEST_CASE("a profile is a list of points over the distance from the wall") {
 
 TEST_CASE("a profile may be a formula over the distance from the wall, of which points are taken") {
   const auto read = [](const std::string& members) {
-    return reference_of(
-               R"({"source": "S", "families": [{"where": {}, "values": [{"quantity": "porosity", )" +
-               members + "}]}]}")
-        .families.at(0)
-        .values.at(0);
+    return value_of_family(R"("quantity": "porosity", )" + members);
   };
   const Published line = read(R"("width": 4, "profile": "1 - y/D", "text": "line", "error": 0.01)");
   CHECK(line.text == "line: 1 - y/D ± 0.01");
