@@ -25,6 +25,16 @@ inline std::string bound_text(double value) {
   return number_text(value, 6);
 }
 
+/// A positive least value that is to be typed in: the same, but never below the value itself.
+inline std::string least_text(double value) {
+  std::string text = bound_text(value);
+  double printed = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), printed);
+  if (printed >= value) return text;
+  const double sixth_digit = std::pow(10.0, std::floor(std::log10(value)) - 5.0);
+  return number_text(value + sixth_digit / 2.0, 6);
+}
+
 /// All parts, one after the other, as streams print them.
 template <class... Parts>
 std::string joined(const Parts&... parts) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "engine/interval.hpp"
@@ -54,6 +55,57 @@ double largest_radius(const PlacedGrains& placed) {
   return radius;
 }
 
+/// Extents of the components of a mixture at size 1, in their order; nothing of other shapes.
+std::vector<ShapeExtent> component_extents(const ShapeSpec& shape) {
+  std::vector<ShapeExtent> extents;
+  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
+    for (const MixtureComponent& one : mixture->components) {
+      extents.push_back(extent_of(one.shape));
+    }
+  }
+  return extents;
+}
+
+/// The extent of one placed grain at size 1: of its component, whatever the share of that is.
+/// `shape` where the file names none that there is.
+const ShapeExtent& extent_of_placed(const PlacedGrains& placed, std::size_t i,
+                                    const std::vector<ShapeExtent>& components,
+                                    const ShapeExtent& shape) {
+  const bool is_named = i < placed.components.size() && placed.components[i] < components.size();
+  return is_named ? components[placed.components[i]] : shape;
+}
+
+/// Placed grains of one component, d across.
+struct PlacedExtents {
+  double largest = 0.0, total = 0.0;
+  std::size_t grains = 0;
+};
+
+/// By component; all in one where the grains are of one shape.
+std::map<int, PlacedExtents> placed_extents(const PlacedGrains& placed, const ShapeSpec& spec,
+                                            const ShapeExtent& shape) {
+  const std::vector<ShapeExtent> components = component_extents(spec);
+  std::map<int, PlacedExtents> extents;
+  for (std::size_t i = 0; i < placed.grains.size(); ++i) {
+    const double size = 2.0 * placed.grains[i].radius;
+    const double across = 2.0 * extent_of_placed(placed, i, components, shape).circumradius * size;
+    PlacedExtents& of_one = extents[i < placed.components.size() ? placed.components[i] : 0];
+    of_one.largest = std::max(of_one.largest, across);
+    of_one.total += across;
+    ++of_one.grains;
+  }
+  return extents;
+}
+
+/// The largest placed grain, d across.
+double largest_placed(const PlacedGrains& placed, const ShapeSpec& spec, const ShapeExtent& shape) {
+  double largest = 0.0;
+  for (const auto& [component, one] : placed_extents(placed, spec, shape)) {
+    largest = std::max(largest, one.largest);
+  }
+  return largest;
+}
+
 /// Largest size that can occur.
 double largest_size(const PackingSpec& spec) {
   if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
@@ -64,9 +116,22 @@ double largest_size(const PackingSpec& spec) {
   return mean * (1.0 + largest_deviation * spec.sizes.spread);
 }
 
-/// Size of the grains that decides how high and how loose a bed is, d.
-double outcome_size(const PackingSpec& spec) {
-  return spec.sizes.distribution ? largest_size(spec) : 1.0;
+/// The largest grain that can occur, d across.
+double largest_grain(const PackingSpec& spec, const ShapeExtent& shape) {
+  if (const auto* placed = std::get_if<PlacedGrains>(&spec.fill)) {
+    return largest_placed(*placed, spec.shape, shape);
+  }
+  return 2.0 * shape.circumradius * largest_size(spec);
+}
+
+/// Mean extent of the large grains, or that of the largest one, which decides how high and how
+/// loose a bed is, d.
+double outcome_extent(const PackingSpec& spec, const ShapeExtent& shape) {
+  const SizesSpec& sizes = spec.sizes;
+  if (sizes.distribution || std::holds_alternative<PlacedGrains>(spec.fill)) {
+    return largest_grain(spec, shape);
+  }
+  return 2.0 * shape.circumradius * (sizes.small_share < 1.0 ? 1.0 : sizes.size_ratio);
 }
 
 /// The shape's extent; nothing if the shape is forbidden.
@@ -113,7 +178,7 @@ bool check_side(const char* path, double side, Boundary boundary, double largest
   const bool is_in_metres = side > 0.0 && side < 0.2;
   const std::string unit = is_in_metres ? "; lengths are in d, a large grain's mean diameter" : "";
   errors.push_back({path,
-                    "must lie in [" + bound_text(needed) + ", " + bound_text(longest_side) + "]" +
+                    "must lie in [" + least_text(needed) + ", " + bound_text(longest_side) + "]" +
                         reason + ", is " + bound_text(side) + unit,
                     side > 0.0 ? needed / side : 0.0});
   return false;
@@ -216,11 +281,14 @@ void check_orientations(const PlacedGrains& placed, bool are_spheres, Errors& er
 }
 
 /// The first bad grain speaks for all of them: a wrong unit spoils every line.
-void check_placed(const PlacedGrains& placed, double inner, const Box& box, Errors& errors) {
+void check_placed(const PackingSpec& spec, const PlacedGrains& placed, const ShapeExtent& shape,
+                  Errors& errors) {
+  const std::vector<ShapeExtent> components = component_extents(spec.shape);
   std::string first;
   std::size_t bad = 0;
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
-    std::string fault = fault_of(placed.grains[i], inner, box);
+    const double inner = extent_of_placed(placed, i, components, shape).inradius;
+    std::string fault = fault_of(placed.grains[i], inner, spec.box);
     if (fault.empty() && i < placed.orientations.size()) fault = fault_of(placed.orientations[i]);
     if (fault.empty()) continue;
     if (++bad == 1) first = "grain " + std::to_string(i + 1) + " " + fault;
@@ -283,7 +351,7 @@ void check_fill(const PackingSpec& spec, const std::optional<ShapeExtent>& shape
   } else {
     const auto& placed = std::get<PlacedGrains>(spec.fill);
     require_count(grain_count(spec), "fill.file", errors);
-    if (shape) check_placed(placed, shape->inradius, spec.box, errors);
+    if (shape) check_placed(spec, placed, *shape, errors);
     check_orientations(placed, is_sphere(spec.shape), errors);
     if (const auto* mixture = std::get_if<Mixture>(&spec.shape)) {
       check_components(placed, *mixture, errors);
@@ -386,16 +454,16 @@ void check_fall(const PackingSpec& spec, double across, Errors& errors) {
                         " d of solid: " + fall + "; fill in less, or widen the box"});
 }
 
-/// Checks what follows from the parts together, once each of them is valid. `across`: of a grain of
-/// size 1, d. A few grains of a file may be packed to be exported alone.
-void check_outcome(const PackingSpec& spec, double across, Errors& errors) {
+/// Checks what follows from the parts together, once each of them is valid. A few grains of a file
+/// may be packed to be exported alone.
+void check_outcome(const PackingSpec& spec, const ShapeExtent& shape, Errors& errors) {
+  const double across = outcome_extent(spec, shape);
   if (std::holds_alternative<PlacedGrains>(spec.fill)) {
-    const double largest = across * largest_size(spec);
-    if (largest < tiny_in_file) check_height(spec, largest, errors);
+    if (across < tiny_in_file) check_height(spec, across, errors);
     return;
   }
-  check_height(spec, across * outcome_size(spec), errors);
-  check_fall(spec, across * outcome_size(spec), errors);
+  check_height(spec, across, errors);
+  check_fall(spec, across, errors);
 }
 
 /// A hull far larger or smaller than d has the wrong unit: what to say of it, as `owner`, whose
@@ -486,6 +554,19 @@ void check_bin_width(double bin_width, const Box& box, Errors& errors) {
 /// polyhedron: the narrower the tube, the further a corner slides off it.
 constexpr double narrowest_tube = 2.5;
 
+/// The extent by which narrow tubes are judged, d: of placed grains the mean of a component, so
+/// that beds that were packed in a tube can be packed in it again.
+double extent_in_tube(const PackingSpec& spec, const ShapeExtent& shape) {
+  const auto* placed = std::get_if<PlacedGrains>(&spec.fill);
+  if (placed == nullptr) return outcome_extent(spec, shape);
+  constexpr double scatter = 0.01;  // of the mean of a hundred grains
+  double largest = 0.0;
+  for (const auto& [component, one] : placed_extents(*placed, spec.shape, shape)) {
+    largest = std::max(largest, one.total / static_cast<double>(one.grains));
+  }
+  return (1.0 - scatter) * largest;
+}
+
 void check_measure(const MeasureSpec& measure, Errors& errors) {
   require_in({0.0, 1000.0}, measure.exclude_floor, "measure.exclude_floor", errors);
   require_in({0.0, 1000.0}, measure.exclude_surface, "measure.exclude_surface", errors);
@@ -504,18 +585,14 @@ double volume_ratio(const Mixture& mixture) {
 
 /// The heaviest of placed grains over the lightest.
 double mass_ratio(const PlacedGrains& placed, const ShapeSpec& shape) {
-  std::vector<double> volumes;  // of components of size 1; of grains of one shape they cancel
-  if (const auto* mixture = std::get_if<Mixture>(&shape)) {
-    for (const MixtureComponent& one : mixture->components) {
-      volumes.push_back(extent_of(one.shape).volume);
-    }
-  }
+  // Of size 1; of grains of one shape they cancel.
+  const std::vector<ShapeExtent> components = component_extents(shape);
   double least = infinity, most = 0.0;
   const double largest = largest_radius(placed);  // whose cube may be no number
   for (std::size_t i = 0; i < placed.grains.size(); ++i) {
     const double radius = placed.grains[i].radius / largest;
-    const double mass =
-        radius * radius * radius * (volumes.empty() ? 1.0 : volumes[placed.components[i]]);
+    const double mass = radius * radius * radius *
+                        (components.empty() ? 1.0 : components[placed.components[i]].volume);
     least = std::min(least, mass);
     most = std::max(most, mass);
   }
@@ -544,7 +621,7 @@ void check_masses(const PackingSpec& spec, bool is_right, Errors& errors) {
   const bool has_both = !sizes.distribution && sizes.small_share > 0.0 && sizes.small_share < 1.0;
   const double least = std::cbrt(1.0 / f32_mass_ratio);
   if (!has_both || !is_f32 || sizes.size_ratio >= least) return;
-  errors.push_back({"sizes.size_ratio", "must be at least " + bound_text(least) +
+  errors.push_back({"sizes.size_ratio", "must be at least " + least_text(least) +
                                             " in f32, in which masses may differ by 1e5 to 1, is " +
                                             bound_text(sizes.size_ratio) +
                                             "; take accuracy.precision f64"});
@@ -583,7 +660,7 @@ void check_exact_rest(const PackingSpec& spec, double largest, Errors& errors) {
 }  // namespace
 
 double probable_height(const PackingSpec& spec) {
-  const double across = 2.0 * extent_of(spec.shape).circumradius * outcome_size(spec);
+  const double across = outcome_extent(spec, extent_of(spec.shape));
   return solid_height(spec) / usual_solid_fraction(spec, across);
 }
 
@@ -602,13 +679,14 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const auto shape = check_shape(spec.shape, errors);
   const bool sizes = check_sizes(spec.sizes, errors);
   const double across = shape ? 2.0 * shape->circumradius : 1.0;
-  const double largest = across * (sizes ? largest_size(spec) : 1.0);
+  const double largest = shape && sizes ? largest_grain(spec, *shape) : across;
   const bool has_room = check_room(spec, across, largest, errors);
   const bool box = has_room && check_box(spec.box, largest, errors);
-  const double narrowest = narrowest_tube * across * (sizes ? outcome_size(spec) : 1.0);
+  const double narrowest =
+      narrowest_tube * (shape && sizes ? extent_in_tube(spec, *shape) : across);
   if (has_room && spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
     errors.push_back({"tube.diameter",
-                      "must be at least " + bound_text(narrowest) + " (" +
+                      "must be at least " + least_text(narrowest) + " (" +
                           bound_text(narrowest_tube) + " times the extent of these grains), is " +
                           bound_text(spec.box.length),
                       spec.box.length > 0.0 ? narrowest / spec.box.length : 0.0});
@@ -619,7 +697,7 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   if (spec.accuracy.rest == Rest::exact) check_exact_rest(spec, largest, errors);
   check_measure(spec.measure, errors);
   if (box) check_bin_width(spec.measure.bin_width, spec.box, errors);
-  if (errors.empty()) check_outcome(spec, across, errors);
+  if (errors.empty()) check_outcome(spec, *shape, errors);
   if (shape) hint_at_size(spec.shape, errors);
   return errors;
 }

@@ -98,7 +98,7 @@ TEST_CASE("walls along x, too, are as far apart as the largest grain") {
   };
   CHECK(length(1.2).empty());
   CHECK(length(1.1) ==
-        Messages{"box.length: must lie in [1.13333, 10000] (the largest grain between two walls), "
+        Messages{"box.length: must lie in [1.13334, 10000] (the largest grain between two walls), "
                  "is 1.1"});
   CHECK(length(10'001.0).size() == 1);
 }
@@ -203,6 +203,46 @@ TEST_CASE("a placed grain of a mixture is of one of its components") {
   };
   CHECK(placed(1).empty());
   CHECK(placed(2).size() == 1);
+}
+
+TEST_CASE(
+    "placed grains of a mixture are as large as their components, whatever shares these have") {
+  const auto placed = [](double side, double z, std::uint8_t component) {
+    return broken_by([=](PackingSpec& spec) {
+      spec.box = {side, side, Boundary::periodic, Boundary::periodic};
+      spec.shape = Mixture{{{1.0, SphereShape{}}, {0.0, CuboidSize{3, 0.5, 0.5}}}};
+      PlacedGrains grains{{{2, 2, z, 0.5}}, {{0, 0, 0, 1}}};
+      grains.components = {component};
+      spec.fill = grains;
+    });
+  };
+  CHECK(placed(4.5, 0.5, 0).empty());
+  const Messages errors = placed(4.5, 0.5, 1);
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[0].starts_with("box.length: must lie in [6.56"));  // twice 3.082 and the margin
+  CHECK(placed(7, 0.25, 1).empty());                              // lies on a long face
+  CHECK(placed(7, 0.25, 0).size() == 1);
+}
+
+TEST_CASE("the least value that an error names is right") {
+  for (const double cube : {1.13, 1.31, 0.9, 0.777}) {
+    for (const bool is_tube : {false, true}) {
+      const auto errors_at = [&](double side) {
+        return check(changed([&](PackingSpec& spec) {
+          spec.shape = CubeSize{cube};
+          spec.box =
+              is_tube ? tube_of(side) : Box{side, side, Boundary::periodic, Boundary::periodic};
+        }));
+      };
+      const std::string message = errors_at((is_tube ? 3.0 : 0.5) * cube).front().message;
+      INFO(message);
+      const std::size_t number = message.find_first_of("0123456789");
+      REQUIRE(number != std::string::npos);
+      const double least = std::stod(message.substr(number));
+      CHECK(errors_at(least).empty());
+      CHECK(!errors_at(least * (1.0 - 2e-5)).empty());  // six digits
+    }
+  }
 }
 
 TEST_CASE("grains of a file that are far smaller than d have the wrong unit") {
@@ -316,6 +356,31 @@ TEST_CASE("tubes hold polyhedra of any size that may occur") {
   CHECK(errors[0].starts_with("tube.diameter: must be at least 6.49"));
 }
 
+TEST_CASE("the narrowest tube of polyhedra follows the size that they have") {
+  const auto is_right = [](double diameter, const auto& change) {
+    return broken_by([&](PackingSpec& spec) {
+             spec.box = tube_of(diameter);
+             spec.shape = CubeSize{};
+             change(spec);
+           })
+        .empty();
+  };
+  const auto all_small = [](PackingSpec& spec) {
+    spec.sizes.small_share = 1.0;
+    spec.sizes.size_ratio = 0.5;
+  };
+  CHECK(is_right(2.2, all_small));  // 2.5 times 0.866: 2.17 d
+  CHECK(!is_right(2.1, all_small));
+  for (const double size : {0.5, 2.0}) {
+    const auto placed = [size](PackingSpec& spec) {
+      const double axis = spec.box.length / 2.0;
+      spec.fill = PlacedGrains{{{axis, axis, size / 2.0, size / 2.0}}, {{0, 0, 0, 1}}};
+    };
+    CHECK(is_right(4.3 * size, placed));  // 0.99 times 2.5 times 1.732: 4.29
+    CHECK(!is_right(4.2 * size, placed));
+  }
+}
+
 TEST_CASE("steps in which a bed cannot even fall are refused") {
   const auto steps = [](double step, double momentum, Protocol protocol) {
     return broken_by([=](PackingSpec& spec) {
@@ -389,15 +454,15 @@ TEST_CASE("grains that no container has room for are wrong, not the container") 
 }
 
 TEST_CASE("sizes keep to their intervals") {
-  const auto sizes = [](SizesSpec changed_sizes) {
+  const auto sizes = [](SizesSpec changed_sizes, std::int64_t grains = 1'000'000) {
     return broken_by([=](PackingSpec& spec) {
       spec.sizes = changed_sizes;
-      spec.fill = GrainCount{1'000'000};
+      spec.fill = GrainCount{grains};
       spec.measure.exclude_floor = spec.measure.exclude_surface = 0.0;
     });
   };
   CHECK(sizes({0.0, 0.0, 1.0}).empty());
-  CHECK(sizes({0.2, 1.0, 0.021}).empty());
+  CHECK(sizes({0.2, 1.0, 0.05}, 10'000'000).empty());
   CHECK(sizes({-0.01, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is -0.01"});
   CHECK(sizes({0.21, 0.0, 0.5}) == Messages{"sizes.spread: must lie in [0, 0.2], is 0.21"});
   const std::string percent = "; divide percentages by 100";

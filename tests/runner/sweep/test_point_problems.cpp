@@ -14,7 +14,7 @@ Messages errors_in_short_boxes(const std::string& blocks) {
 
 /// That they are too short for bricks 3 d long.
 const std::string too_short =
-    "s.json:1:42 /base/box/length: must lie in [7.91768, 10000] (periodic: twice the largest grain "
+    "s.json:1:42 /base/box/length: must lie in [7.91769, 10000] (periodic: twice the largest grain "
     "and a margin), is 4";
 
 }  // namespace
@@ -34,7 +34,7 @@ TEST_CASE(
         Messages{too_short + " (with shape.cuboid.length 3)"});
   CHECK(errors_in_short_boxes(R"({"label": "balls"}, {"label": "others",
             "zip": {"shape": ["sphere", "cuboid"], "sizes.spread": [0, 0.1]}})") ==
-        Messages{"s.json:1:42 /base/box/length: must lie in [5.24974, 10000] (periodic: twice the "
+        Messages{"s.json:1:42 /base/box/length: must lie in [5.24975, 10000] (periodic: twice the "
                  "largest grain and a margin), is 4 (in block \"others\" with shape \"cuboid\", "
                  "sizes.spread 0.1)"});
 }
@@ -59,7 +59,7 @@ TEST_CASE("a value that is wrong in the same way at all points is told without o
 TEST_CASE("a list's value that is wrong beside some of another list is told with both") {
   CHECK(errors_of(sweep_of(R"({"grid": {"shape": ["sphere", {"cuboid": {"length": 3}}],
                                         "box.length": [4, 9]}})")) ==
-        Messages{"s.json:2:56 /sweep/0/grid/box.length/0: must lie in [7.91768, 10000] (periodic: "
+        Messages{"s.json:2:56 /sweep/0/grid/box.length/0: must lie in [7.91769, 10000] (periodic: "
                  "twice the largest grain and a margin), is 4 (with shape.cuboid.length 3, "
                  "box.length 4)"});
 }

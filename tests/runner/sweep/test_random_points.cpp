@@ -188,7 +188,7 @@ TEST_CASE("distributions that cannot be drawn from are refused") {
 TEST_CASE("a rule that many random points break is named once") {
   const auto errors = errors_in_random(R"({"count": 500, "box.width": {"uniform": [1, 1.1]}})");
   REQUIRE(errors.size() == 1);
-  CHECK(errors[0].starts_with("s.json:2:29 /sweep/0/random/box.width: must lie in [1.13333,"));
+  CHECK(errors[0].starts_with("s.json:2:29 /sweep/0/random/box.width: must lie in [1.13334,"));
 }
 
 }  // namespace grainsweep
