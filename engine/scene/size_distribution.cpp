@@ -16,6 +16,8 @@ namespace {
 constexpr double beyond_cut = 1e-3;  // share cut off at each end of a curve without ends
 constexpr double cut_deviation = 3.0902323061678132;  // of a Gaussian: 0.1 % lie beyond it
 constexpr int formula_steps = 500;  // keep rows within 2e-5 of a formula between its usual ends
+constexpr double next_to_nothing = 1e-12;  // share that no bed is large enough to draw from
+constexpr double far_deviation = 7.034483825301131;  // of a Gaussian: that share lies beyond it
 
 struct Ends {
   double smallest, largest;
@@ -37,6 +39,18 @@ Ends usual_ends(const WeibullSizes& sizes) {
           sizes.scale * portable::pow(-portable::log(beyond_cut), power)};
 }
 
+/// Diameters below and above which there is next to nothing, by number and by volume: between the
+/// two a share changes by the cube of a diameter, which moves a lognormal curve by 3 sigma^2.
+Ends far_ends(const LognormalSizes& sizes) {
+  const double factor = portable::exp((far_deviation + 3.0 * sizes.sigma) * sizes.sigma);
+  return {sizes.median / factor, sizes.median * factor};
+}
+Ends far_ends(const WeibullSizes& sizes) {
+  const double steepness = sizes.shape - 3.0;  // of the number below a small diameter
+  return {steepness > 0.0 ? sizes.scale * portable::pow(next_to_nothing, 1.0 / steepness) : 0.0,
+          sizes.scale * portable::pow(-portable::log(next_to_nothing), 1.0 / sizes.shape)};
+}
+
 double formula_at(const LognormalSizes& sizes, double diameter) {
   const double deviation = portable::log(diameter / sizes.median) / sizes.sigma;
   return 0.5 * portable::erfc(-deviation / std::sqrt(2.0));
@@ -47,12 +61,17 @@ double formula_at(const WeibullSizes& sizes, double diameter) {
 
 SizeCurve one_size(double diameter) { return {{diameter, diameter}, {0.0, 1.0}}; }
 
-/// Rows of a formula between two diameters, evenly spaced in their logarithm.
+/// Rows of a formula between two diameters, evenly spaced in their logarithm where there is any of
+/// it: however far apart the two are, none is wasted beside a narrow curve.
 template <class Formula>
-SizeCurve rows_between(const Formula& formula, const Ends& ends) {
+SizeCurve rows_between(const Formula& formula, const Ends& asked) {
+  const Ends far = far_ends(formula);
+  const Ends within{std::max(asked.smallest, far.smallest), std::min(asked.largest, far.largest)};
+  const Ends ends = within.smallest < within.largest ? within : asked;
   SizeCurve curve;
-  const double low = formula_at(formula, ends.smallest);
-  const double whole = formula_at(formula, ends.largest) - low;
+  if (ends.smallest > asked.smallest) curve = {{asked.smallest}, {0.0}};
+  const double low = formula_at(formula, asked.smallest);
+  const double whole = formula_at(formula, asked.largest) - low;
   for (int k = 0; k <= formula_steps; ++k) {
     const double share = static_cast<double>(k) / formula_steps;
     const double diameter =
@@ -60,6 +79,10 @@ SizeCurve rows_between(const Formula& formula, const Ends& ends) {
                            : ends.smallest * portable::pow(ends.largest / ends.smallest, share);
     curve.diameters.push_back(diameter);
     curve.passing.push_back((formula_at(formula, diameter) - low) / whole);
+  }
+  if (ends.largest < asked.largest) {
+    curve.diameters.push_back(asked.largest);
+    curve.passing.push_back(1.0);
   }
   curve.passing.back() = 1.0;
   return curve;

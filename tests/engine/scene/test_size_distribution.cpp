@@ -140,6 +140,26 @@ TEST_CASE("formulas without ends are cut where one in a thousand lies beyond") {
   CHECK(std::exp(-std::pow(weibull.diameters.back(), 3)) == Approx(1e-3));
 }
 
+TEST_CASE("a narrow curve keeps to its formula however far apart its ends are") {
+  constexpr double by_rows = 2e-4;  // straight lines between rows, up to 0.06 of a deviation apart
+  for (const double sigma : {0.1, 0.01, 0.001}) {
+    const SizeCurve curve =
+        curve_of(distribution_of(LognormalSizes{1.0, sigma}, SizeWeight::number, 0.2, 5.0));
+    CHECK(curve.diameters.front() == 0.2);
+    CHECK(curve.diameters.back() == 5.0);
+    for (double deviation = -4.0; deviation <= 4.0; deviation += 0.01) {
+      const double passing = 0.5 * std::erfc(-deviation / std::sqrt(2.0));
+      CHECK(std::abs(passing_at(curve, std::exp(sigma * deviation)) - passing) < by_rows);
+    }
+  }
+  const SizeCurve steep =
+      curve_of(distribution_of(WeibullSizes{1.0, 100.0}, SizeWeight::volume, 0.2, 5.0));
+  for (double passing = 0.001; passing < 1.0; passing += 0.001) {
+    const double diameter = std::pow(-std::log1p(-passing), 1.0 / 100.0);
+    CHECK(std::abs(passing_at(steep, diameter) - passing) < by_rows);
+  }
+}
+
 TEST_CASE("a cut curve is what is left of the whole one") {
   const SizeCurve whole = curve_of(distribution_of(sieve_table(), SizeWeight::volume));
   const SizeCurve cut = curve_of(distribution_of(sieve_table(), SizeWeight::volume, 0.4, 2.4));
