@@ -205,7 +205,12 @@ void collect_impulses(const PolyhedronBed& bed, const ParallelFor& loop, double 
 }
 
 /// See Closure.
-int by_turning(const PolyhedronContact& contact) {
+int by_turning(const PolyhedronBed& bed, const PolyhedronContact& contact) {
+  if (!bed.is_grain(contact.b)) {
+    // Corners at a round wall are named beyond the walls; they belong to grains that turn.
+    if (bed.turns(static_cast<std::size_t>(contact.a))) return 0;
+    return bed.walls[static_cast<std::size_t>(contact.b - bed.wall_name(0))].is_round() ? 1 : 0;
+  }
   return contact.kind == AxisKind::ball_on_face   ? 2
          : contact.kind == AxisKind::ball_on_edge ? 1
                                                   : 0;
@@ -516,7 +521,7 @@ std::vector<Closure> closures(PolyhedronBed& bed, const ExecutionContext& contex
       const ContactPoint* points = now.points.data() + c.first;
       all[static_cast<std::size_t>((*at)[2])] = {std::max(min_gap(points, c.count), c.parted),
                                                  constraints_of(points, c.count, closed_gap),
-                                                 by_turning(c)};
+                                                 by_turning(bed, c)};
     }
   });
   return all;

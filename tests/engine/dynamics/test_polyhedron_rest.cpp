@@ -49,6 +49,16 @@ TEST_CASE("spheres of a mixture have three freedoms, and hold a polyhedron they 
   CHECK(rest.isostatic_contacts == 6 + 3 * 3 - 2 - 2);
 }
 
+TEST_CASE(
+    "a round wall holds a sphere of a mixture along it, too, as it holds one of a sphere bed") {
+  const auto shapes = shapes_of(Mixture{{{0.5, CubeSize{}}, {0.5, SphereShape{}}}});
+  PolyhedronBed bed =
+      make_bed(tube_of(1.6), shapes, {1, 1}, {pose_at(0.5, 0.8, 0.5), pose_at(1.1, 0.8, 1.3)});
+  const RestReport rest = rest_after_step(bed, 0.0);
+  CHECK(rest.contacts == 4);
+  CHECK(rest.held_by_turning == 2);
+}
+
 TEST_CASE("overlaps are measured where the grains are, at the deepest point") {
   PolyhedronBed bed = shape_bed({6, 6, periodic, walls}, testing::cube(), {pose_at(3, 3, 0.5)});
   const RestReport rest = rest_after_step(bed, 0.01);
