@@ -159,13 +159,17 @@ struct Beside {
 
 /// Vertices within the margin that are not corners of the touching face: where an edge lies on the
 /// reference, a face at one of its ends may be the touching one, and would leave out the other end.
-void add_other_vertices(const Reference& reference, const Beside& beside, double margin,
+/// Whether there are any.
+bool add_other_vertices(const Reference& reference, const Beside& beside, double margin,
                         std::size_t first, std::vector<ContactPoint>& points) {
+  bool are_any = false;
   for (std::size_t v = 0; v < beside.other.shape.vertices.size(); ++v) {
     if (!beside.has(v)) continue;
+    are_any = true;
     const Vector x = beside.other.place(static_cast<std::int32_t>(v));
     if (reference.is_below(x)) add_point(reference, x, margin, first, points);
   }
+  return are_any;
 }
 
 /// Cuts a segment down to the part above the reference; false if there is none.
@@ -216,8 +220,10 @@ void clip_on(const Reference& reference, const SeenShape& other, double margin, 
     add_polygon(reference, other, face_of(other.shape, beside), margin, first, columns, points);
   }
   const Beside others{other, touching, columns.reach, reference.gap(other.centre) - margin};
-  add_other_vertices(reference, others, margin, first, points);
-  add_lying_edges(reference, others, margin, first, points);
+  // An edge that is none of the touching face has an end that is no corner of it.
+  if (add_other_vertices(reference, others, margin, first, points)) {
+    add_lying_edges(reference, others, margin, first, points);
+  }
 }
 
 /// Appends the contact points on a face and on those nearly flat with it, in their frame.

@@ -53,7 +53,8 @@ struct CrossedEdges {
 /// Contact of two grains; its points are `points[first]` .. `points[first + count - 1]`.
 struct PairContact {
   Vector normal = Vector::Zero();  ///< unit, from a to b, frame of a; the same for all points
-  /// Along the normal, d; no more than the least gap. If there is no contact, a separation that
+  /// Along the normal, d; no more than the least gap, but that points on a face nearly flat with
+  /// the one touched have gaps along its own normal. If there is no contact, a separation that
   /// parts the shapes.
   double separation = 0.0;
   AxisKind kind = AxisKind::none;  ///< what gave the normal; none = no contact within the margin
