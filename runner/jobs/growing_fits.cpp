@@ -19,14 +19,15 @@ namespace {
 struct Target {
   bool is_coordination = false;
   bool is_slope = false;
-  double half_interval = 0.0;  ///< what is left for the scatter
+  double half_interval = 0.0;  ///< what is left for the scatter; 0 if nothing is: never met
 };
 
 std::vector<Target> targets_of(const FitWish& wish, const std::optional<ProtocolBias>& bound) {
   const ProtocolBias bias = bound.value_or(ProtocolBias());
   std::vector<Target> targets;
   const auto add = [&](bool is_coordination, bool is_slope, double asked, double known) {
-    if (asked > 0.0) targets.push_back({is_coordination, is_slope, asked - known});
+    const double left = std::max(0.0, asked - known);
+    if (asked > 0.0) targets.push_back({is_coordination, is_slope, left});
   };
   add(false, false, wish.phi_bulk, bias.solid_fraction);
   add(false, true, wish.c, 0.0);

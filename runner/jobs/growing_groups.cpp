@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/dynamics/presets.hpp"
+#include "engine/units.hpp"
 #include "runner/analysis/fit.hpp"
 #include "runner/jobs/estimates.hpp"
 #include "runner/jobs/growing_fits.hpp"
@@ -24,9 +25,11 @@
 namespace grainsweep {
 namespace {
 
-/// The interval over what the request leaves for it; at most 1 if the request is met.
+/// The interval over what the request leaves for it; at most 1 if the request is met, and infinite
+/// if the bias leaves nothing.
 double over_wish(const Spread& spread, double wish, double bias) {
-  return wish > 0.0 ? half_interval(spread.sd, spread.n) / (wish - bias) : 0.0;
+  if (wish == 0.0) return 0.0;
+  return wish > bias ? half_interval(spread.sd, spread.n) / (wish - bias) : infinity;
 }
 double over_wishes(const Means& means, const ErrorWish& wish,
                    const std::optional<ProtocolBias>& bound) {
@@ -70,21 +73,28 @@ FitGroup fit_group_of(const Sweep& whole, const Places& group, std::size_t mean,
           is_narrow(job.spec.box)};
 }
 
-/// The largest bounds of the bias of settling among the groups of a fit, but for narrow ones that
-/// its line leaves out; nothing if one has none.
-std::optional<ProtocolBias> bound_of_fit(const Sweep& whole, const std::vector<Places>& groups,
-                                         const GrowingFamily& family) {
+/// The first jobs of the groups of a fit, but for narrow ones that its line leaves out.
+std::vector<const Job*> jobs_of_fit(const Sweep& whole, const std::vector<Places>& groups,
+                                    const GrowingFamily& family) {
   std::vector<LineWidth> widths;
   for (const std::size_t k : family.groups) {
     const Job& job = whole.jobs[groups[k].front()];
     widths.push_back({job.spec.box.width, is_narrow(job.spec.box) || !is_walled(job)});
   }
   const std::vector<bool> are_on_line = widths_on_line(widths);
-  ProtocolBias largest;
+  std::vector<const Job*> jobs;
   for (std::size_t i = 0; i < widths.size(); ++i) {
     const Job& job = whole.jobs[groups[family.groups[i]].front()];
-    if (!are_on_line[i] && is_walled(job)) continue;
-    const auto bound = bound_of(job);
+    if (are_on_line[i] || !is_walled(job)) jobs.push_back(&job);
+  }
+  return jobs;
+}
+
+/// The largest bounds of the bias of settling among these; nothing if one has none.
+std::optional<ProtocolBias> largest_bound(const std::vector<const Job*>& jobs) {
+  ProtocolBias largest;
+  for (const Job* job : jobs) {
+    const auto bound = bound_of(*job);
     if (!bound) return std::nullopt;
     largest.solid_fraction = std::max(largest.solid_fraction, bound->solid_fraction);
     largest.coordination = std::max(largest.coordination, bound->coordination);
@@ -103,7 +113,7 @@ CalledFit called_for(const Sweep& whole, const std::vector<Places>& groups,
         means.try_emplace({job.label, job.parameters.text()}, means.size()).first->second;
     of_fit.push_back(fit_group_of(whole, groups[k], mean, outcomes));
   }
-  return called_for_fit(of_fit, family.wish, bound_of_fit(whole, groups, family));
+  return called_for_fit(of_fit, family.wish, largest_bound(jobs_of_fit(whole, groups, family)));
 }
 
 /// How many packings of each group are called for.
@@ -162,24 +172,27 @@ std::string finer_text(const Job& job, double wish, double ProtocolBias::*bound)
   return "";
 }
 
-/// Notes a requested error, called `key` in the file, that is no larger than the bias of settling.
-void refuse_wish(const std::string& key, double wish, double ProtocolBias::*bound,
-                 const Sweep& whole, const Job& job, Diagnostics& diagnostics) {
-  if (wish == 0.0) return;
-  const double bias = bound_of(job).value_or(ProtocolBias()).*bound;
-  if (wish > bias) return;
-  std::ostringstream message;
-  message << "cannot be met in \"" << job.label << "\": settled as \""
-          << settles_as(job.spec.accuracy) << "\" such packings may be off by " << bias
-          << " however many there are; ask for more than that" << finer_text(job, wish, bound);
-  diagnostics.push_back({place_of(key, whole, job), message.str()});
+double bias_of(const Job& job, double ProtocolBias::*bound) {
+  return bound_of(job).value_or(ProtocolBias()).*bound;
 }
 
-/// Of the jobs of each block the one with the largest bound of phi.
-std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<const Job*>& jobs) {
-  const auto bound = [](const Job& job) {
-    return bound_of(job).value_or(ProtocolBias()).solid_fraction;
-  };
+/// Notes an error requested by a job, called `key` in the file, that is no larger than the bias of
+/// settling of packings as those of `worst`.
+void refuse_wish(const std::string& key, double wish, double ProtocolBias::*bound,
+                 const Sweep& whole, const Job& asking, const Job& worst,
+                 Diagnostics& diagnostics) {
+  const double bias = bias_of(worst, bound);
+  if (wish == 0.0 || wish > bias) return;
+  std::ostringstream message;
+  message << "cannot be met in \"" << worst.label << "\": settled as \""
+          << settles_as(worst.spec.accuracy) << "\" such packings may be off by " << bias
+          << " however many there are; ask for more than that" << finer_text(worst, wish, bound);
+  diagnostics.push_back({place_of(key, whole, asking), message.str()});
+}
+
+/// Of the jobs of each block the one with the largest bound.
+std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<const Job*>& jobs,
+                                        double ProtocolBias::*bound) {
   std::vector<const Job*> worst;
   for (const Job* job : jobs) {
     const auto same = std::find_if(worst.begin(), worst.end(), [&](const Job* other) {
@@ -187,11 +200,29 @@ std::vector<const Job*> worst_of_blocks(const Sweep& whole, const std::vector<co
     });
     if (same == worst.end()) {
       worst.push_back(job);
-    } else if (bound(*job) > bound(**same)) {
+    } else if (bias_of(*job, bound) > bias_of(**same, bound)) {
       *same = job;
     }
   }
   return worst;
+}
+
+/// Notes a requested error of a fit, called `key` in the file, wherever it is requested, that is no
+/// larger than the bias of settling of the packings on its line.
+void refuse_fit_wish(const std::string& key, double FitWish::*wish, double ProtocolBias::*bound,
+                     const Sweep& whole, const std::vector<Places>& groups,
+                     const GrowingFamily& family, Diagnostics& diagnostics) {
+  const std::vector<const Job*> on_line = jobs_of_fit(whole, groups, family);
+  if (!largest_bound(on_line)) return;
+  const Job& worst = **std::max_element(
+      on_line.begin(), on_line.end(),
+      [&](const Job* a, const Job* b) { return bias_of(*a, bound) < bias_of(*b, bound); });
+  std::set<std::string> places;
+  for (const std::size_t k : family.groups) {
+    const Job& job = whole.jobs[groups[k].front()];
+    if (!places.insert(place_of_wishes(whole, job)).second) continue;
+    refuse_wish(key, job.fit_wish.*wish, bound, whole, job, worst, diagnostics);
+  }
 }
 
 /// Notes why the requested errors of a fit cannot be reached.
@@ -220,14 +251,10 @@ void refuse_fit(const Sweep& whole, const std::vector<Places>& groups, const Gro
                                       "\", of the same family, asks for errors of means; ask for "
                                       "one of them"});
   }
-  std::vector<const Job*> jobs;
-  for (const std::size_t k : family.groups) jobs.push_back(&whole.jobs[groups[k].front()]);
-  for (const Job* job : worst_of_blocks(whole, jobs)) {
-    refuse_wish("fit/phi_bulk", job->fit_wish.phi_bulk, &ProtocolBias::solid_fraction, whole, *job,
-                diagnostics);
-    refuse_wish("fit/Z_bulk", job->fit_wish.z_bulk, &ProtocolBias::coordination, whole, *job,
-                diagnostics);
-  }
+  refuse_fit_wish("fit/phi_bulk", &FitWish::phi_bulk, &ProtocolBias::solid_fraction, whole, groups,
+                  family, diagnostics);
+  refuse_fit_wish("fit/Z_bulk", &FitWish::z_bulk, &ProtocolBias::coordination, whole, groups,
+                  family, diagnostics);
 }
 
 std::string unmeasured_text(std::size_t count, const char* noun) {
@@ -388,11 +415,13 @@ Diagnostics unreachable_wishes(const Sweep& whole) {
     const Job& job = whole.jobs[group.front()];
     if (job.wish.is_given()) asking.push_back(&job);
   }
-  for (const Job* job : worst_of_blocks(whole, asking)) {
+  for (const Job* job : worst_of_blocks(whole, asking, &ProtocolBias::solid_fraction)) {
     refuse_wish("solid_fraction", job->wish.solid_fraction, &ProtocolBias::solid_fraction, whole,
-                *job, diagnostics);
+                *job, *job, diagnostics);
+  }
+  for (const Job* job : worst_of_blocks(whole, asking, &ProtocolBias::coordination)) {
     refuse_wish("coordination", job->wish.coordination, &ProtocolBias::coordination, whole, *job,
-                diagnostics);
+                *job, diagnostics);
   }
   for (const GrowingFamily& family : growing_families(whole, groups)) {
     refuse_fit(whole, groups, family, diagnostics);

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/text.hpp"
 #include "runner/jobs/growing_groups.hpp"
 #include "runner/jobs/replicate_means.hpp"
 #include "tests/runner/jobs/growing_sweeps.hpp"
@@ -310,6 +311,54 @@ TEST_CASE("wishes below the bias of settling are refused, with what it is") {
             "\": settled as \"balanced\" such packings may be off by 0.002 however many there are; "
             "ask for more than that");
   CHECK(unreachable_wishes({"s", 7, 1, growing_group("a", 5.0, 20, {0.01, 0.0})}).empty());
+}
+
+TEST_CASE("of each quantity the packings with the largest bound of it decide, whichever they are") {
+  // Two sizes have the smaller bound of phi and the larger one of Z.
+  std::vector<Job> jobs = growing_group("a", 5.0, 20, {0.0, 0.045});
+  std::vector<Job> mixed = growing_group("b", 5.0, 20, {0.0, 0.045});
+  for (Job& job : mixed) {
+    job.parameters = sample_parameters(5, Boundary::walls, 0.3);
+    job.spec.sizes.small_share = 0.3;
+  }
+  const double of_one = bound_of(jobs.front())->coordination;
+  const double of_two = bound_of(mixed.front())->coordination;
+  REQUIRE(of_one < 0.045);
+  REQUIRE(of_two > 0.045);
+  REQUIRE(bound_of(mixed.front())->solid_fraction < bound_of(jobs.front())->solid_fraction);
+  CHECK(unreachable_wishes({"s", 7, 1, jobs}).empty());
+  jobs.insert(jobs.end(), mixed.begin(), mixed.end());
+  const Diagnostics said = unreachable_wishes({"s", 7, 1, jobs});
+  REQUIRE(said.size() == 1);
+  CHECK_THAT(said[0].message, Catch::Contains("may be off by " + joined(of_two)));
+}
+
+TEST_CASE("the bias of widths that the line leaves out refuses no fit") {
+  const auto with_widths = [](std::initializer_list<double> widths) {
+    Sweep whole{"s", 7, 1, {}};
+    for (const double width : widths) {
+      for (Job& job : growing_group(std::to_string(width), width, 10, {})) {
+        job.spec.box.width = width;
+        job.parameters = sample_parameters(width, Boundary::walls, 0.0);
+        job.fit_wish.z_bulk = 0.05;
+        whole.jobs.push_back(job);
+      }
+    }
+    return whole;
+  };
+  const Sweep narrow = with_widths({3.0});
+  REQUIRE(bound_of(narrow.jobs.front())->coordination > 0.05);
+  CHECK(unreachable_wishes(with_widths({4.0, 5.0, 6.0})).empty());
+  CHECK(unreachable_wishes(with_widths({3.0, 4.0, 5.0, 6.0})).empty());
+  CHECK(unreachable_wishes(with_widths({2.0, 3.0, 5.0})).size() == 1);
+}
+
+TEST_CASE("a wish that the bias of settling leaves nothing of is never met") {
+  const std::vector<Outcome> outcomes(8, sample_outcome("a", 0.6, 6.0));
+  const std::vector<const Outcome*> made = pointers(outcomes, 8);
+  CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.001, 0.0}) == first_replicates);
+  CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.002, 0.0}) == 8);
+  CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.003, 0.0}) == 8);
 }
 
 TEST_CASE("wishes that no bound of settling is known for are noted, once where they are written") {
