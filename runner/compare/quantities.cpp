@@ -210,27 +210,48 @@ std::string no_packings_at(double width, const Family& family) {
          extent_symbol(family.walled) + " = " + cell(width) + " d";
 }
 
+/// Part of a mean over bins of a profile.
+struct BinShare {
+  std::size_t bin = 0;
+  double share = 0.0;
+};
+
 /// The mean of a profile at `y`, linear between the middles of bins.
-Estimate value_at(double y, const std::vector<MeanBin>& bins, Spread MeanBin::*spread) {
+std::vector<BinShare> shares_at(double y, const std::vector<MeanBin>& bins) {
   const double bin_width = bins.front().high - bins.front().low;
   const double last = static_cast<double>(bins.size()) - 1.0;
   const double place = std::clamp(y / bin_width - 0.5, 0.0, last);
   const double lower = std::min(std::floor(place), std::max(last - 1.0, 0.0));
   const double share = place - lower;
   const auto below = static_cast<std::size_t>(lower);
-  const Spread& a = bins[below].*spread;
-  if (share == 0.0) return {a.mean, a.error};
-  const Spread& b = bins[below + 1].*spread;
-  return {(1.0 - share) * a.mean + share * b.mean, (1.0 - share) * a.error + share * b.error};
+  std::vector<BinShare> shares = {{below, 1.0 - share}};
+  if (share > 0.0) shares.push_back({below + 1, share});
+  return shares;
 }
 
-/// The same at a distance from the nearest wall: of a gap, the mean of both halves.
+/// The same at a distance from the nearest wall: of a gap, the mean of both halves, which tell
+/// apart from each other; bins of one half do not, nor does the bin in the middle of a gap, which
+/// is in both.
 Estimate value_from_wall(double distance, const Group& group, const std::vector<MeanBin>& bins,
                          Spread MeanBin::*spread) {
-  const Estimate here = value_at(distance, bins, spread);
-  if (group.job.box.is_tube) return here;
-  const Estimate there = value_at(group.job.box.width - distance, bins, spread);
-  return {(here.value + there.value) / 2.0, std::hypot(here.error, there.error) / 2.0};
+  std::vector<BinShare> shares = shares_at(distance, bins);
+  if (!group.job.box.is_tube) {
+    for (const BinShare& there : shares_at(group.job.box.width - distance, bins)) {
+      shares.push_back(there);
+    }
+    for (BinShare& one : shares) one.share /= 2.0;
+  }
+  double value = 0.0, in_first_half = 0.0, in_second_half = 0.0, in_the_middle = 0.0;
+  for (const auto& [bin, share] : shares) {
+    const Spread& of_bin = bins[bin].*spread;
+    value += share * of_bin.mean;
+    const std::size_t twice = 2 * bin + 1;
+    double& error = group.job.box.is_tube || twice < bins.size() ? in_first_half
+                    : twice > bins.size()                        ? in_second_half
+                                                                 : in_the_middle;
+    error += share * of_bin.error;
+  }
+  return {value, std::hypot(in_first_half, in_second_half) + in_the_middle};
 }
 
 /// The values of one group at these distances.

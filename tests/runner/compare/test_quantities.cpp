@@ -99,6 +99,23 @@ TEST_CASE("groups of one width that differ in their label have one mean over all
   CHECK(phi.estimate.error == Approx(std::sqrt(squares) / 6.0));
 }
 
+TEST_CASE("the bin in the middle of a gap tells no more for being in both of its halves") {
+  std::vector<Row> rows;
+  for (const double shift : {-0.01, 0.01}) {
+    rows.push_back(settled_row(std::to_string(rows.size()), 3, 0.6, 5));
+    rows.back().outcome->result.profile_y = {
+        1.0,
+        {{0.5 + shift, 0, 1, 0, 2, 3}, {0.6 + shift, 0, 1, 0, 2, 3}, {0.4 + shift, 0, 1, 0, 2, 3}}};
+  }
+  const auto phi = measure_profile("phi", 3, {0.5, 1.0, 1.5}, families_in(rows).at(0)).values;
+  const double error = spread_of({0.49, 0.51}).error;
+  CHECK(phi[0].estimate.error == Approx(error / std::sqrt(2.0)));
+  CHECK(phi[1].estimate.value == Approx((0.45 + 0.6) / 2.0));
+  CHECK(phi[1].estimate.error == Approx(error / 2.0 / std::sqrt(2.0) + error / 2.0));
+  CHECK(phi[2].estimate.value == Approx(0.6));
+  CHECK(phi[2].estimate.error == Approx(error));
+}
+
 TEST_CASE("a profile is linear between the middles of bins, the mean of both halves of a gap") {
   std::vector<Row> rows;
   for (const double shift : {-0.01, 0.01}) {
