@@ -130,11 +130,19 @@ std::optional<double> bias_bound(const std::vector<const Group*>& groups, Quanti
   return largest;
 }
 
+/// Whether the containers of a line keep walls along x however wide they are.
+bool keeps_walls(const Family& family) {
+  const Box& box = first_group(family).job.box;
+  return !box.is_tube && box.x == Boundary::walls &&
+         !std::all_of(family.walled.begin(), family.walled.end(),
+                      [](const Group& group) { return is_square_duct(group.job.box); });
+}
+
 /// Whether the value of a line without walls is not the one measured there, by three errors of
 /// both. What settling does to means has no part in it: both are settled alike.
 bool contradicts(const WallFit& fit, const Family& family, Quantity quantity) {
   constexpr double most_errors = 3.0;
-  if (!family.unconfined) return false;
+  if (!family.unconfined || keeps_walls(family)) return false;
   const Spread& periodic = spread_of(*family.unconfined, quantity);
   const double error = std::hypot(fit.bulk.error, periodic.error);
   return std::abs(fit.bulk.value - periodic.mean) > most_errors * error;  // not of NaN

@@ -243,11 +243,6 @@ Columns<Group> bias_columns() {
           column("coordination_bias_bound", &ProtocolBias::coordination)};
 }
 
-bool is_square_duct(const Box& box) {
-  return !box.is_tube && box.x == Boundary::walls && box.y == Boundary::walls &&
-         box.length == box.width;
-}
-
 /// JSON on one line with numbers as jobs have them: 1e-04, which the library writes as 0.0001.
 std::string as_in_jobs(const nlohmann::json& value) {
   if (value.is_number_float()) return cell(value.get<double>());
@@ -274,6 +269,11 @@ Spread mean_at(double tolerance, const Group& group) {
 
 }  // namespace
 
+bool is_square_duct(const Box& box) {
+  return !box.is_tube && box.x == Boundary::walls && box.y == Boundary::walls &&
+         box.length == box.width;
+}
+
 std::string parameters_of_family(const JobFacts& job, bool is_over_squares) {
   nlohmann::json parameters = nlohmann::json::parse(job.parameters.text());
   if (parameters.contains("box")) {
@@ -291,7 +291,7 @@ std::vector<std::string> parameters_of_families(const std::vector<JobFacts>& job
   families.reserve(jobs.size());
   for (const JobFacts& job : jobs) {
     families.push_back(parameters_of_family(job));
-    widths[families.back()].insert(job.box.width);
+    if (job.box.y == Boundary::walls) widths[families.back()].insert(job.box.width);
     if (is_square_duct(job.box)) sides[parameters_of_family(job, true)].insert(job.box.width);
   }
   for (std::size_t k = 0; k < jobs.size(); ++k) {

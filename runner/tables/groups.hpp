@@ -92,12 +92,15 @@ struct Group {
   StatusCounts counts;
 };
 
+/// Whether a box has walls on all sides, as long as it is wide.
+bool is_square_duct(const Box& box);
+
 /// The parameters of a family, canonical JSON: those of a job without the width of its container
 /// and what bounds it along y; over square ducts without their length, too.
 std::string parameters_of_family(const JobFacts& job, bool is_over_squares = false);
 
 /// Those of the family that each of these parameter sets belongs to. Square ducts whose length no
-/// other width has are a family: they differ in both.
+/// other gap between walls has are a family: they differ in both.
 std::vector<std::string> parameters_of_families(const std::vector<JobFacts>& jobs);
 
 /// The spread of what `value` gives for entry `k` of `list_of(result)`, over the settled packings

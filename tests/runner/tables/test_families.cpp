@@ -68,6 +68,15 @@ TEST_CASE("square ducts are a family, unless their lengths have other widths, to
   CHECK(families_of(groups_of(alone))[0].parameters == R"({"box":{"length":4,"x":"walls"}})");
 }
 
+TEST_CASE("packings without walls along y take no square duct out of its family") {
+  std::vector<Row> rows = {duct_row(4, 4), duct_row(5, 5), duct_row(6, 6), duct_row(4, 5)};
+  rows.back().job.box.y = Boundary::periodic;
+  const auto families = families_of(groups_of(rows));
+  REQUIRE(families.size() == 2);
+  CHECK(families[0].walled.size() == 3);
+  CHECK(families[1].periodic.size() == 1);
+}
+
 TEST_CASE("a family of two labels carries both") {
   Row narrow = settled_row("a", 4, 0.6, 6);
   narrow.job.label = "narrow";

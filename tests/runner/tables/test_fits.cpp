@@ -363,6 +363,21 @@ TEST_CASE("a bulk value that contradicts the measured one is in doubt") {
         "bulk and periodic value differ by more than their errors: too few or too narrow widths");
 }
 
+TEST_CASE("a line of ducts that keep walls along x does not lead to the value without walls") {
+  std::vector<Row> rows;
+  for (const double width : {6.0, 8.0, 16.0}) add_width(rows, width, 0.001);
+  for (const char* const id : {"p", "q"}) {
+    rows.push_back(settled_row(id, 20, *id == 'p' ? 0.5995 : 0.6005, 6.05, Boundary::periodic));
+  }
+  CHECK(!fit_walls(family_of(rows), Quantity::solid_fraction).doubt.empty());
+  Family ducts = family_of(rows);
+  for (Group& group : ducts.walled) group.job.box.x = Boundary::walls;
+  CHECK(ducts.unconfined);
+  CHECK(fit_walls(ducts, Quantity::solid_fraction).doubt.empty());
+  for (Group& group : ducts.walled) group.job.box.length = group.job.box.width;
+  CHECK(!fit_walls(ducts, Quantity::solid_fraction).doubt.empty());
+}
+
 TEST_CASE("what has walls along x only is no value without walls") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0, 10.0, 20.0}) add_width(rows, width, 0.001);
