@@ -29,6 +29,20 @@ TEST_CASE("each preset that was chosen is told with its bounds and what was aske
       "0.003 in solid fraction, 0.082 in coordination\n");
 }
 
+TEST_CASE("the same grains settled by different presets in different containers are told of") {
+  const auto told = [](const std::string& widths) {
+    return text_of(R"({"name": "a", "base": {"accuracy.coordination": 0.055},
+        "sweep": [{"label": "walls", "grid": {"box.width": )" +
+                   widths + "}}]}");
+  };
+  CHECK(told("[4, 5, 6]").find("The same grains") == std::string::npos);
+  CHECK_THAT(told("[3, 4, 5]"),
+             Catch::EndsWith("The same grains, as in \"walls\", are settled as \"fast\" and "
+                             "\"balanced\" in different containers: no line joins these, and "
+                             "none is the other's value without walls; for that write \"preset\": "
+                             "\"balanced\" in place of the accuracy that is asked for\n"));
+}
+
 TEST_CASE("of presets that are named nothing is told") {
   CHECK(text_of(R"({"name": "a", "base": {"accuracy": "fast"}})").empty());
 }
