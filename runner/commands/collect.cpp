@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -43,6 +44,8 @@ struct Collection {
   std::map<std::string, std::size_t> row_of;  ///< by job
   /// The first row of each set of parameters, by their text, which the rows keep.
   std::map<std::string_view, std::size_t> row_with;
+  /// Beds of given starts, by their parameters and state: whatever the seed, they come out alike.
+  std::set<std::pair<std::string, std::uint64_t>> of_starts;
   /// Content of the files that parameters were read from, by parameter and name of the file.
   std::map<std::pair<std::string, std::string>, std::string> content_of;
   /// What is stored of other forms of the sweeps, which is in no table.
@@ -109,6 +112,17 @@ Row& row_of(const JobEntry& job, const JobList& list, Collection& to,
     add_row(std::move(row), to, renamed);
   }
   return to.rows[known->second];
+}
+
+bool has_given_start(const JobFacts& job) {
+  return job.files.contains("fill.file") || job.files.contains("fill.files");
+}
+
+/// Notes the bed of a given start; false if one that is alike is known: with another seed it is no
+/// other packing.
+bool note_start(const Row& row, const Outcome& outcome, Collection& to) {
+  if (!has_given_start(row.job) || outcome.exception) return true;
+  return to.of_starts.emplace(row.job.parameters.text(), outcome.result.state_hash).second;
 }
 
 void add_runs(const std::vector<RunRecord>& from, Collection& to) {
@@ -226,7 +240,7 @@ void add_others(const std::string& folder, Outcomes&& outcomes, Collection& to) 
 /// What the folder holds already; a new one takes name and file from the first source.
 Collection begin_collection(const std::string& folder, ShardFiles& files, ProgressDisplay& display,
                             const RunRecord& own, const Provenance& first) {
-  Collection collection{folder, files, display, first, {}, {}, {}, {}, {}};
+  Collection collection{folder, files, display, first, {}, {}, {}, {}, {}, {}};
   collection.provenance.runs.clear();
   if (file_exists(provenance_path(folder))) {
     StoredSweep stored = read_stored_sweep(folder);
@@ -250,6 +264,8 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
     tell_files_apart(collection.rows[i].job, collection);
     collection.row_of[collection.rows[i].job.id] = i;
     collection.row_with.try_emplace(collection.rows[i].job.parameters.text(), i);
+    const Row& row = collection.rows[i];
+    if (row.outcome) note_start(row, *row.outcome, collection);
   }
   collection.provenance.build = this_build();
   return collection;
@@ -264,17 +280,31 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
   const double all = static_cast<double>(std::max<std::size_t>(stored.outcomes.size(), 1));
   if (to.rows.empty()) to.rows.reserve(stored.jobs.jobs.size());
   std::map<std::string, std::string> renamed;
+  std::size_t copies = 0;
   for (const JobEntry& job : stored.jobs.jobs) {
+    const std::size_t rows_before = to.rows.size();
     Row& row = row_of(job, stored.jobs, to, renamed);
     if (auto other = to.others.extract(job.id); other && !row.outcome) {
       row.outcome = std::move(other.mapped());
     }
     auto outcome = stored.outcomes.extract(job.id);
     if (!outcome) continue;
+    if (!is_made(row) && !note_start(row, *outcome.mapped(), to) && rows_before < to.rows.size()) {
+      to.row_of.erase(job.id);
+      to.rows.pop_back();
+      ++copies;
+      continue;
+    }
     add_outcome(folder, std::move(outcome.mapped()), row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
   add_others(folder, std::move(stored.outcomes), to);
+  if (copies > 0) {
+    warn(folder + ": " + counted(copies, "packing") +
+             " of a given start that is collected already, with another seed: the bed is the same, "
+             "and is kept once",
+         to);
+  }
   for (const auto& [label, first] : renamed) {
     warn(folder + ": packings called \"" + label + "\" have the parameters of \"" + first +
              "\" collected before, and are called so, too",

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -82,13 +83,12 @@ std::vector<Cost> costs_with(const Outcomes& outcomes, const std::vector<Job>& j
 
 /// The packings of a sweep that are not made yet.
 struct Left {
-  std::vector<Cost> costs;        ///< of each of them
+  std::vector<Cost> costs;        ///< of each of them; a bed that several share is packed once
   std::size_t of_known_beds = 0;  ///< to be measured again only
 };
 
 Left left_of(const std::string& folder, const Outcomes& made, const std::vector<Job>& jobs,
              const std::vector<Cost>& costs) {
-  if (made.empty()) return {costs, 0};
   std::vector<const Job*> pending;
   Left left;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
@@ -96,11 +96,13 @@ Left left_of(const std::string& folder, const Outcomes& made, const std::vector<
     pending.push_back(&jobs[k]);
     left.costs.push_back(costs[k]);
   }
-  const KnownBeds beds = known_beds(folder, made, pending);
+  const KnownBeds beds = made.empty() ? KnownBeds() : known_beds(folder, made, pending);
+  std::set<std::uint64_t> packed;
   for (std::size_t k = 0; k < pending.size(); ++k) {
-    if (!beds.contains(pending[k]->id)) continue;
-    left.costs[k].cpu_seconds *= share_of_measuring;
-    ++left.of_known_beds;
+    const bool is_known = beds.contains(pending[k]->id);
+    const bool is_packed = !packed.insert(pending[k]->settled_bed).second;
+    if (is_known || is_packed) left.costs[k].cpu_seconds *= share_of_measuring;
+    left.of_known_beds += is_known ? 1 : 0;
   }
   return left;
 }

@@ -120,7 +120,7 @@ class Sweep:
     @functools.cached_property
     def provenance(self):
         """provenance.json: the sweep file and how its packings were made."""
-        return json.loads((self.folder / "provenance.json").read_text())
+        return json.loads((self.folder / "provenance.json").read_text(encoding="utf-8"))
 
     @functools.cached_property
     def _places(self):

@@ -19,7 +19,8 @@ using Catch::Contains;
 /// The folder of a run by process "node-7" that began at `started` and made one packing.
 std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& name,
                             const std::string& started, const Outcome& outcome,
-                            const GivenUnits& units = {}, const std::string& label = "MSP") {
+                            const GivenUnits& units = {}, const std::string& label = "MSP",
+                            const std::map<std::string, std::string>& read_from = {}) {
   std::string folder = parent.path() + "/" + name;
   make_folder(folder);
   Provenance provenance;
@@ -30,6 +31,7 @@ std::string folder_of_a_run(const TemporaryFolder& parent, const std::string& na
   run.process = "node-7";
   std::vector<Row> rows = {{sample_job(outcome.job, 5), outcome}};
   rows[0].job.label = label;
+  rows[0].job.files = read_from;
   write_tables(folder, provenance, rows, analyse(rows));
   ShardFiles files(folder, {}, run);
   files.add(outcome);
@@ -224,6 +226,24 @@ TEST_CASE("packings of equal parameters are collected under one label, and so ar
   REQUIRE(all.rows.size() == 2);
   CHECK(all.rows[1].job.label == "MSP");
   CHECK(groups_of(all.rows).size() == 1);
+}
+
+TEST_CASE("a given start that is packed with another seed is the same bed, and is kept once") {
+  const TemporaryFolder parent;
+  const std::map<std::string, std::string> start = {{"fill.files", "a.csv"}};
+  Outcome other = sample_outcome("b1", 0.61, 6);
+  other.result.state_hash = 77;
+  const auto folder = [&](const std::string& name, const Outcome& outcome) {
+    return folder_of_a_run(parent, name, name, outcome, {}, "MSP", start);
+  };
+  const std::string first = folder("1", sample_outcome("a1", 0.6, 6));
+  const std::string same = folder("2", sample_outcome("a2", 0.6, 6)), next = folder("3", other);
+  const std::string out = parent.path() + "/all";
+  for (int k = 0; k < 2; ++k) {  // and again
+    const Printed printed = printed_by([&] { perform(CollectOptions{{first, same, next}, out}); });
+    CHECK_THAT(printed.error, Contains("2: 1 packing of a given start that is collected already"));
+    CHECK(read_results(out).rows.size() == 2);
+  }
 }
 
 // A host gives the number of a process again.

@@ -37,6 +37,17 @@ for row in csv.reader(sys.stdin):
 write_measured before.json '"exclude_floor": 1, "exclude_surface": 1'
 write_measured after.json \
   '"exclude_floor": 0.7, "exclude_surface": 1.2, "bin_width": 0.25, "gap_tolerances": [1e-3, 1e-5]'
+# A bed that is measured in several ways is packed once, and planned so.
+/usr/bin/python3 -c 'import json
+sweep = json.load(open("before.json"))
+for name, widths in ("once", [0.1]), ("often", [0.1, 0.2, 0.25, 0.3]):
+    sweep["sweep"] = [{"grid": {"measure.bin_width": widths}}]
+    json.dump(sweep, open(name + ".json", "w"))'
+for sweep in once often; do "$program" plan "$sweep.json" --json >"$sweep.plan"; done
+/usr/bin/python3 -c 'import json
+once, often = (json.load(open(name + ".plan"))["left_estimated_cpu_seconds"] for name in ("once", "often"))
+assert once < often < 2 * once, (once, often)'
+
 expect_code 0 "$program" run before.json --out both --no-report --tolerate-unsettled
 expect_code 0 "$program" run after.json --out fresh --no-report --tolerate-unsettled
 expect_code 0 "$program" plan after.json --out both
