@@ -78,6 +78,10 @@ std::vector<GivenStart> GivenFiles::starts(const Block& block, const InEffect& i
     said_.problem(*diameter, "must be positive");
     return {{SolidHeight{}}};
   }
+  if (diameter != nullptr) {
+    note_other_length(diameter->pointer, resolved.fill_diameter,
+                      files != nullptr ? "the files are" : "the file is");
+  }
   if (files != nullptr) return starts_in_list(block, *files, resolved);
   GivenStart start = start_in(resolved.fill_file, *file, resolved.fill_diameter);
   resolved.fill_content = start.content;
@@ -163,6 +167,9 @@ void GivenFiles::place_vertices(const Block& block, const InEffect& in_effect,
   if (!(resolved.hull_size > 0.0)) {
     said_.problem(*size, "must be positive");
     is_sound = false;
+  } else if (size != nullptr) {
+    note_other_length(size->pointer, resolved.hull_size,
+                      file != nullptr ? "the file is" : "the vertices are");
   }
   is_sound = has_room(hull.points.size(), block, *source) && is_sound;
   hull.points = is_sound ? scaled_points(std::move(hull.points), resolved.hull_size) : Points{};
@@ -185,6 +192,8 @@ void GivenFiles::place_components(const Block& block, const InEffect& in_effect,
     const Assignment source{mixture->parameter, components[k].hull_file,
                             place + (in_file ? "file" : "vertices")};
     is_sound = place_component(block, source, components[k]) && is_sound;
+    note_other_length(place + "size", components[k].hull_size,
+                      in_file ? "the file is" : "the vertices are");
   }
   if (!has_hulls) return;
   parameters()[mixture_].set(resolved, components);
@@ -230,7 +239,9 @@ void GivenFiles::place_sizes(const InEffect& in_effect, ResolvedSpec& resolved) 
     said_.problem(*size, "must be positive");
     return distribution.reset();
   }
-  if (size != nullptr) note_other_d(*size, resolved.size_unit);
+  if (size != nullptr) {
+    note_other_d(size->pointer, resolved.size_unit, "the diameters are", "others");
+  }
   to_units_of(resolved.size_unit, *distribution);
 }
 
@@ -250,13 +261,19 @@ void GivenFiles::note_unit_of(const InEffect& in_effect) {
                    units->unit + ", set sizes.distribution.size to " + d);
 }
 
-void GivenFiles::note_other_d(const Assignment& size, double d) {
+void GivenFiles::note_other_length(const std::string& pointer, double length,
+                                   const std::string& what_is) {
+  if (length != 1.0) note_other_d(pointer, length, what_is, "other lengths");
+}
+
+void GivenFiles::note_other_d(const std::string& pointer, double d, const std::string& what_is,
+                              const std::string& others) {
   const GivenUnits& units = definition_.units;
   constexpr double rounding = 1e-6;
   if (!units || std::abs(d - units->d) <= rounding * units->d) return;
-  said_.remark(size.pointer, "unit",
-               "is not the d of units, " + bound_text(units->d) + " " + units->unit +
-                   ": if the diameters are in " + units->unit + ", tables will give others in " +
+  said_.remark(pointer, "unit",
+               "is not the d of units, " + bound_text(units->d) + " " + units->unit + ": if " +
+                   what_is + " in " + units->unit + ", tables will give " + others + " in " +
                    units->unit + "; set both to one length");
 }
 

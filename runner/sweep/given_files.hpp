@@ -75,8 +75,12 @@ class GivenFiles {
   void note_hull(const Assignment& file, const VerticesReading& reading);
   /// Notes once that diameters are in d: curves of sieves are in the unit that a laboratory uses.
   void note_unit_of(const InEffect& in_effect);
-  /// Notes a length of d that is not the one of the units.
-  void note_other_d(const Assignment& size, double d);
+  /// Notes a length of d in a file or in vertices that is not the one of the units. With 1, which
+  /// is the default, they are in d.
+  void note_other_length(const std::string& pointer, double length, const std::string& what_is);
+  /// The same, whatever the length, of `what_is`, "the file is"; tables will give `others`.
+  void note_other_d(const std::string& pointer, double d, const std::string& what_is,
+                    const std::string& others);
   /// Notes a part, if it is set, of something that is not.
   void note_stray(const Assignment* part, const std::string& message);
   /// Whether the hulls do not hold too many vertices; otherwise a problem is noted.

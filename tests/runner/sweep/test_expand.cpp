@@ -125,6 +125,36 @@ TEST_CASE("the vertices of a hull are those of a file beside the sweep, in units
   CHECK(from_file.id != job_with(R"({"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]]})").id);
 }
 
+TEST_CASE("a size of a hull that is not the d of the units is worth a note") {
+  const ScratchFolder folder;
+  folder.write("rock.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n");
+  const auto said = [&](const std::string& shape) {
+    const SweepReading reading =
+        read_sweep(folder.write("s.json", R"({"name": "t", "units": {"d": 3.2, "unit": "mm"},
+                                             "base": {"shape": )" +
+                                              shape + "}}"));
+    CHECK(reading.errors.empty());
+    Messages notes;
+    for (const Diagnostic& note : reading.notes) notes.push_back(note.pointer + " " + note.message);
+    return notes;
+  };
+  const std::string of_file =
+      " is not the d of units, 3.2 mm: if the file is in mm, tables will give other lengths in mm; "
+      "set both to one length";
+  CHECK(said(R"({"hull": {"file": "rock.obj", "size": 4}})") ==
+        Messages{"/base/shape/hull/size" + of_file});
+  CHECK(said(R"({"hull": {"vertices": [[0,0,0],[4,0,0],[0,4,0],[0,0,4]], "size": 4}})") ==
+        Messages{"/base/shape/hull/size is not the d of units, 3.2 mm: if the vertices are in mm, "
+                 "tables will give other lengths in mm; set both to one length"});
+  CHECK(said(R"({"mixture": [{"share": 0.5, "cube": {}},
+                             {"share": 0.5, "hull": {"file": "rock.obj", "size": 4}}]})") ==
+        Messages{"/base/shape/mixture/1/hull/size" + of_file});
+  CHECK(said(R"({"hull": {"file": "rock.obj", "size": 3.2}})").empty());
+  CHECK(said(R"({"mixture": [{"share": 0.5, "cube": {}},
+                             {"share": 0.5, "hull": {"file": "rock.obj"}}]})")
+            .empty());  // lengths in d
+}
+
 TEST_CASE("errors of a hull's file name its own lines, once for all jobs") {
   const ScratchFolder folder;
   folder.write("rock.obj", "v 0 0 0\nv 0 zero 0\n");

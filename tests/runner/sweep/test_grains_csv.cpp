@@ -286,6 +286,30 @@ TEST_CASE("the diameter in a file of starts holds for every file that blocks nam
              !Catch::Contains("diameter"));
 }
 
+TEST_CASE("a diameter in a file of starts that is not the d of the units is worth a note") {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,r\n4,4,4,1\n");
+  const auto said = [&](const std::string& fill, const std::string& units) {
+    const SweepReading reading = read_sweep(
+        folder.write("s.json", R"({"name": "t", )" + units + R"("base": {"fill": )" + fill + "}}"));
+    CHECK(reading.errors.empty());
+    Messages notes;
+    for (const Diagnostic& note : reading.notes) notes.push_back(note.pointer + " " + note.message);
+    return notes;
+  };
+  const std::string units = R"("units": {"d": 6, "unit": "mm"}, )";
+  CHECK(said(R"({"file": "a.csv", "diameter": 5})", units) ==
+        Messages{"/base/fill/diameter is not the d of units, 6 mm: if the file is in mm, tables "
+                 "will give other lengths in mm; set both to one length"});
+  CHECK(said(R"({"files": ["a.csv"], "diameter": 5})", units) ==
+        Messages{"/base/fill/diameter is not the d of units, 6 mm: if the files are in mm, tables "
+                 "will give other lengths in mm; set both to one length"});
+  CHECK(said(R"({"file": "a.csv", "diameter": 6})", units).empty());
+  CHECK(said(R"({"file": "a.csv", "diameter": 1})", units).empty());  // lengths in d
+  CHECK(said(R"({"file": "a.csv"})", units).empty());
+  CHECK(said(R"({"file": "a.csv", "diameter": 5})", "").empty());
+}
+
 TEST_CASE(
     "names of files in tables are no formulas of a spreadsheet and nothing a terminal obeys") {
   const ScratchFolder folder;
