@@ -1,8 +1,6 @@
 // The command `compare`: stored results beside published values.
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <set>
 
 #include <CLI/App.hpp>
 
@@ -11,11 +9,10 @@
 #include "runner/commands/shared_options.hpp"
 #include "runner/compare/comparison.hpp"
 #include "runner/compare/comparison_table.hpp"
+#include "runner/compare/unit_notes.hpp"
 #include "runner/exit_codes.hpp"
 #include "runner/store/files.hpp"
-#include "runner/tables/csv.hpp"
 #include "runner/tables/families.hpp"
-#include "runner/tables/units.hpp"
 #include "runner/text.hpp"
 
 namespace grainsweep {
@@ -59,30 +56,6 @@ std::string reference_file(const CompareOptions& options, const Provenance& prov
                                   : " in the folder configs that grainsweep comes with"));
 }
 
-/// A note for each width of published values that no packing has in d, but would have if it were in
-/// the unit of the sweep.
-std::string notes_on_widths(const Reference& reference, const Analysis& analysis,
-                            const Units& units) {
-  const auto has_width = [&](double width) {
-    return std::any_of(analysis.groups.begin(), analysis.groups.end(), [=](const Group& group) {
-      return std::abs(group.job.box.width - width) <= 1e-9 * width;
-    });
-  };
-  std::set<double> widths;
-  for (const Published& value : reference.common) widths.insert(value.width);
-  for (const PublishedFamily& family : reference.families) {
-    for (const Published& value : family.values) widths.insert(value.width);
-  }
-  std::string notes;
-  for (const double width : widths) {
-    const double in_d = width / units.d;
-    if (!(width > 0.0) || has_width(width) || !has_width(in_d)) continue;
-    notes += "note: no packing has the width " + cell(width) + " d; widths are in d, and " +
-             cell(width) + " " + printed_unit(units) + " is " + short_cell(in_d) + " d\n";
-  }
-  return notes;
-}
-
 /// The published values in a file. Throws BadInput, also if it cannot be read: it was named.
 Reference named_reference(const std::string& file) try {
   return read_reference(file);
@@ -121,7 +94,7 @@ int perform(const CompareOptions& options) {
   const ExitCode end = damage.empty() ? exit_done : exit_file_system;
   const Analysis analysis = analyse(results.rows, options.folder);
   if (const GivenUnits& units = results.provenance.units) {
-    std::cerr << notes_on_widths(reference, analysis, *units);
+    std::cerr << notes_on_lengths(reference, analysis.families, *units);
   }
   if (options.as_csv) {
     std::cout << comparison_csv(compare_with(reference, analysis), results.provenance.units);

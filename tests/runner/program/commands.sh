@@ -91,7 +91,7 @@ for reference in "$configs"/*.reference.json; do
   expect_text out.txt "beside small. Lengths in d."
 done
 
-# Widths of published values are in d, not in the unit of the sweep.
+# Lengths of published values are in d, not in the unit of the sweep.
 sed 's/"seed": 3/"seed": 3, "units": { "d": 5, "unit": "mm" }/' small.json >units.json
 cp -r out/small units
 expect_code "$code" "$program" run units.json --out units --no-report
