@@ -293,7 +293,8 @@ int perform(const ExportOptions& options) {
   if (written.jobs.empty() && !written.faults.empty()) return exit_file_system;
   if (written.jobs.empty() && !written.refused.empty()) throw BadInput(written.refused.front());
   const std::vector<std::string> old = superseded(to, written.jobs);
-  replace_file(to + "/index.csv", index_csv(to, rows, endings(), written.jobs));
+  const std::string unit = format != nullptr ? settings.lengths.unit : "";  // a page names its own
+  replace_file(to + "/index.csv", index_csv(to, rows, endings(), written.jobs, unit));
   for (const std::string& file : old) remove_file(to + "/" + file);
   if (!old.empty()) {
     std::cerr << "note: " << counted(old.size(), "file")

@@ -243,7 +243,7 @@ std::string contacts_vtp(const ExportedBed& exported) {
                   ' ');
   };
   return vtp_file(
-      "Lines", 2 * contacts.size(), contacts.size(),
+      "Lines", 2 * contacts.size(), contacts.size(), "d",
       vtp_points(2 * contacts.size(), end) +
           vtp_element("CellData Scalars=\"force\"", contact_arrays(exported, contacts)) +
           vtp_cells("Lines", connectivity, offsets));

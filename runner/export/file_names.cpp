@@ -40,7 +40,7 @@ std::vector<bool> have_seeds(const std::vector<Row>& rows,
   return several;
 }
 
-constexpr const char* index_heading = "file,job,label,group,replicate,seed,status\n";
+constexpr const char* index_heading = "file,job,label,group,replicate,seed,status,unit\n";
 
 /// From the first point after the number of the replicate on: ".contacts.csv". Labels may have
 /// points, too, but no hyphen behind them.
@@ -58,14 +58,23 @@ bool is_line_of(const std::string& line, const std::string& file, const std::str
   return line.starts_with(file + "," + job + ",");
 }
 
-/// The lines of the existing index of a folder, by their files.
+/// The last cell of a line.
+std::string unit_in(const std::string& line) { return line.substr(line.rfind(',') + 1); }
+
+/// The lines of the existing index of a folder, by their files. In an index of an earlier version,
+/// which has no units, their last cells are empty.
 std::map<std::string, std::string> index_lines(const std::string& folder) {
   std::map<std::string, std::string> lines;
   const std::string path = folder + "/index.csv";
   if (!file_exists(path)) return lines;
+  bool has_units = true;
   for_each_line(path, [&](std::string_view line) {
     const std::string file(line.substr(0, line.find(',')));
-    if (file != "file") lines[file] = line;
+    if (file == "file") {
+      has_units = line.ends_with(",unit");
+    } else {
+      lines[file] = std::string(line) + (has_units ? "" : ",");
+    }
   });
   return lines;
 }
@@ -125,7 +134,7 @@ std::vector<std::string> superseded(const std::string& folder,
 
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
-                      const std::map<std::string, std::string>& written) {
+                      const std::map<std::string, std::string>& written, const std::string& unit) {
   const std::vector<std::string> stems = file_stems(rows);
   const std::vector<std::size_t> numbers = group_numbers(rows);
   const std::vector<std::string> names = files_in(folder, "", "");
@@ -140,9 +149,10 @@ std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
       const auto line = listed.find(file);
       const bool is_its = line != listed.end() && is_line_of(line->second, file, job.id);
       if (!written.contains(file) && !is_its) continue;
+      const std::string its_unit = written.contains(file) ? unit : unit_in(line->second);
       if (line != listed.end()) listed.erase(line);
       text += csv_line({cell(file), job.id, cell(job.label), cell(numbers[k]), cell(job.replicate),
-                        cell(job.seed), status_of(rows[k])});
+                        cell(job.seed), status_of(rows[k]), its_unit});
     }
   }
   const HaveFiles have(written);

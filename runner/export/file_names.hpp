@@ -27,12 +27,13 @@ std::optional<std::string> index_without(const std::string& folder,
 std::vector<std::string> superseded(const std::string& folder,
                                     const std::map<std::string, std::string>& written);
 
-/// index.csv: file, job, label, group, replicate, seed and status of the files in `folder`: of
-/// those `written` now, file -> job, and of others with one of the endings that the present index
-/// lists. What that says of a packing which the rows name differently, as after a change of the
-/// sweep, stays as it is, unless it is written now: it is listed once for each ending.
+/// index.csv: file, job, label, group, replicate, seed, status and unit of length of the files in
+/// `folder`: of those `written` now, file -> job, in `unit`, and of others with one of the endings
+/// that the present index lists, in the unit that it has for them, if it has one. What that says of
+/// a packing which the rows name differently, as after a change of the sweep, stays as it is,
+/// unless it is written now: it is listed once for each ending.
 std::string index_csv(const std::string& folder, const std::vector<Row>& rows,
                       const std::vector<std::string>& endings,
-                      const std::map<std::string, std::string>& written);
+                      const std::map<std::string, std::string>& written, const std::string& unit);
 
 }  // namespace grainsweep

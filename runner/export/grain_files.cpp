@@ -64,7 +64,7 @@ std::string spheres_vtp(const ExportedBed& exported) {
   }
   const auto radius = [&](std::size_t k) { return cell(grains[k].radius); };
   return vtp_file(
-      "Verts", grains.size(), grains.size(),
+      "Verts", grains.size(), grains.size(), exported.settings.lengths.unit,
       vtp_points(grains.size(), [&](std::size_t k) { return position(grains[k]); }) +
           vtp_element("PointData Scalars=\"radius\"",
                       vtp_array("type=\"Float64\" Name=\"radius\"", grains.size(), radius) +
@@ -106,7 +106,7 @@ std::string polygons_vtp(ExportedBed exported) {
     return cell(points[k].x()) + " " + cell(points[k].y()) + " " + cell(points[k].z());
   };
   const auto size = [&](std::size_t k) { return cell(2.0 * bed.grains[owners[k]].radius); };
-  return vtp_file("Polys", points.size(), owners.size(),
+  return vtp_file("Polys", points.size(), owners.size(), exported.settings.lengths.unit,
                   vtp_points(points.size(), point) +
                       vtp_element("CellData Scalars=\"size\"",
                                   vtp_array("type=\"Float64\" Name=\"size\"", owners.size(), size) +
@@ -142,7 +142,8 @@ std::string grains_xyz(const ExportedBed& in_d) {
       cell(height_of(bed)) +
       "\" Properties=species:S:1:pos:R:3:id:I:1:size_class:I:1:radius:R:1:coordination:I:1:force:"
       "R:1" +
-      turned + component + " pbc=\"" + flag(bed.box.x) + " " + flag(bed.box.y) + " F\"\n";
+      turned + component + " pbc=\"" + flag(bed.box.x) + " " + flag(bed.box.y) +
+      " F\" length_unit=" + exported.settings.lengths.unit + "\n";
   return cell(bed.grains.size()) + "\n" + comment + lines(bed, [&](std::size_t k) {
            const SettledGrain& grain = bed.grains[k];
            return "X " + position(grain) + " " + cell(id_of(k)) + " " +

@@ -37,13 +37,14 @@ std::string vtp_cells(const std::string& kind, const std::string& connectivity,
 }
 
 std::string vtp_file(const char* kind, std::size_t points, std::size_t cells,
-                     const std::string& content) {
+                     const std::string& unit, const std::string& content) {
   std::string counts = " NumberOfPoints=\"" + cell(points) + "\"";
   for (const char* known : {"Verts", "Lines", "Strips", "Polys"}) {
     const std::size_t count = std::string_view(known) == kind ? cells : 0;
     counts += std::string(" NumberOf") + known + "=\"" + cell(count) + "\"";
   }
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+  return "<?xml version=\"1.0\"?>\n<!-- grainsweep, lengths in " + unit +
+         " -->\n<VTKFile type=\"PolyData\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece" +
          counts + ">\n" + content + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }

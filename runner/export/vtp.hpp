@@ -22,8 +22,8 @@ std::string vtp_element(const std::string& name, const std::string& content);
 std::string vtp_cells(const std::string& kind, const std::string& connectivity,
                       const std::string& offsets);
 
-/// A whole file, with `points` points and `cells` cells of one kind.
+/// A whole file, with `points` points and `cells` cells of one kind, and lengths in `unit`.
 std::string vtp_file(const char* kind, std::size_t points, std::size_t cells,
-                     const std::string& content);
+                     const std::string& unit, const std::string& content);
 
 }  // namespace grainsweep

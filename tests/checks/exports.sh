@@ -94,6 +94,7 @@ def table(file):
     return pandas.read_csv(file, float_precision="round_trip")
 
 index = table("index.csv")
+assert (index["unit"] == "d").all(), index["unit"]
 packings = table("out/packings.csv").set_index("job")
 for file, job in zip(index["file"], index["job"]):
     if not file.endswith(".csv"):
@@ -105,6 +106,7 @@ for file, job in zip(index["file"], index["job"]):
         mass *= numpy.where(grains["component"] == 2, other, 1.0)
 
     atoms = ase.io.read(stem + ".xyz")
+    assert atoms.info["length_unit"] == "d", stem
     assert len(atoms) == packing["grains"] and set(atoms.symbols) == {"X"}, stem
     assert (atoms.positions == places).all() and (atoms.arrays["id"] == grains["id"]).all(), stem
     assert (atoms.arrays["force"] == grains["force"]).all(), stem

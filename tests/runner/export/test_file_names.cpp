@@ -47,17 +47,17 @@ TEST_CASE("no file is hidden, and none is put into another folder") {
   CHECK(file_stems({row_of("a", "../b", "{}", 1)}) == std::vector<std::string>{"_._b-1-1"});
 }
 
-const std::string index_head = "file,job,label,group,replicate,seed,status\n";
+const std::string index_head = "file,job,label,group,replicate,seed,status,unit\n";
 
 TEST_CASE("the index lists the files that are written, and those there that it has listed") {
   const TemporaryFolder folder;
-  const std::string written = "x_y__z-1-2.xyz,b,\"x/y, z\",1,2,0,pending\n",
-                    listed = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n";
+  const std::string written = "x_y__z-1-2.xyz,b,\"x/y, z\",1,2,0,pending,mm\n",
+                    listed = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending,d\n";
   for (const char* file : {"x_y__z-1-2.xyz", "x_y__z-3-1.csv", "x_y__z-1-1.csv"}) {
     std::ofstream(folder.path() + "/" + file) << "0";
   }
   const auto index = [&] {
-    return index_csv(folder.path(), four_rows(), {".csv", ".xyz"}, {{"x_y__z-1-2.xyz", ""}});
+    return index_csv(folder.path(), four_rows(), {".csv", ".xyz"}, {{"x_y__z-1-2.xyz", ""}}, "mm");
   };
   CHECK(index() == index_head + written);
   std::ofstream(folder.path() + "/index.csv") << index_head + listed;
@@ -66,18 +66,19 @@ TEST_CASE("the index lists the files that are written, and those there that it h
 
 TEST_CASE("a file that another packing would be called now stays that of its own in the index") {
   const TemporaryFolder folder;
-  const std::string before = "x_y__z-3-1.csv,other,\"x/y, z\",3,1,0,settled\n",
-                    gone = "x_y__z-1-1.csv,gone,\"x/y, z\",1,1,0,settled\n";
+  const std::string before = "x_y__z-3-1.csv,other,\"x/y, z\",3,1,0,settled,d\n",
+                    gone = "x_y__z-1-1.csv,gone,\"x/y, z\",1,1,0,settled,d\n";
   std::ofstream(folder.path() + "/x_y__z-3-1.csv") << "0";
   std::ofstream(folder.path() + "/index.csv") << index_head + gone + before;
-  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) == index_head + before);
-  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", ""}}) ==
-        index_head + "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n");
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}, "d") == index_head + before);
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", ""}}, "d") ==
+        index_head + "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending,d\n");
 }
 
 TEST_CASE("before files are replaced the index forgets those that were another packing's") {
   const TemporaryFolder folder;
-  const std::string same = "a-1-1.csv,a,a,1,1,0,settled\n", other = "a-2-1.csv,b,a,2,1,0,settled\n";
+  const std::string same = "a-1-1.csv,a,a,1,1,0,settled,d\n",
+                    other = "a-2-1.csv,b,a,2,1,0,settled,d\n";
   CHECK_FALSE(index_without(folder.path(), {{"a-1-1.csv", "a"}}));
   std::ofstream(folder.path() + "/index.csv") << index_head + same + other;
   CHECK_FALSE(index_without(folder.path(), {{"a-1-1.csv", "a"}}));
@@ -85,20 +86,34 @@ TEST_CASE("before files are replaced the index forgets those that were another p
         index_head + same);
 }
 
+TEST_CASE("files of an index without units keep their lines, with the unit left empty") {
+  const TemporaryFolder folder;
+  const std::string old_head = "file,job,label,group,replicate,seed,status\n",
+                    other = "a-2-1.csv,b,a,2,1,0,settled", known = "x_y__z-3-1.csv,d,";
+  for (const char* file : {"a-2-1.csv", "x_y__z-3-1.csv"}) {
+    std::ofstream(folder.path() + "/" + file) << "0";
+  }
+  std::ofstream(folder.path() + "/index.csv")
+      << old_head + other + "\n" + known + "\"x/y, z\",3,1,0,settled\n";
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}, "mm") ==
+        index_head + known + "\"x/y, z\",3,1,0,pending,\n" + other + ",\n");
+  CHECK(index_without(folder.path(), {{"x_y__z-3-1.csv", "c"}}) == index_head + other + ",\n");
+}
+
 TEST_CASE("a packing whose group has another number is listed once for an ending") {
   const TemporaryFolder folder;
-  const std::string as_table = "x.y-7-1.csv,d,x.y,7,1,0,settled\n",
-                    as_contacts = "x.y-7-1.contacts.csv,d,x.y,7,1,0,settled\n",
-                    other = "x.y-8-1.csv,other,x.y,8,1,0,settled\n",
-                    now = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending\n";
+  const std::string as_table = "x.y-7-1.csv,d,x.y,7,1,0,settled,d\n",
+                    as_contacts = "x.y-7-1.contacts.csv,d,x.y,7,1,0,settled,d\n",
+                    other = "x.y-8-1.csv,other,x.y,8,1,0,settled,d\n",
+                    now = "x_y__z-3-1.csv,d,\"x/y, z\",3,1,0,pending,d\n";
   for (const char* file :
        {"x_y__z-3-1.csv", "x.y-7-1.csv", "x.y-7-1.contacts.csv", "x.y-8-1.csv"}) {
     std::ofstream(folder.path() + "/" + file) << "0";
   }
   std::ofstream(folder.path() + "/index.csv") << index_head + as_table + as_contacts + other;
-  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", "d"}}) ==
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {{"x_y__z-3-1.csv", "d"}}, "d") ==
         index_head + now + as_contacts + other);
-  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}) ==
+  CHECK(index_csv(folder.path(), four_rows(), {".csv"}, {}, "d") ==
         index_head + as_contacts + as_table + other);
   CHECK(superseded(folder.path(), {{"x_y__z-3-1.csv", "d"}}) ==
         std::vector<std::string>{"x.y-7-1.csv"});

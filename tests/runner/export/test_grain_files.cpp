@@ -58,11 +58,16 @@ TEST_CASE("lengths of grains are in the unit that is asked for, and forces stay"
         "1,large,0.2,0.6666666666666666,1,1,2.75,6\n"
         "2,small,38.5,10,3,0.5,1e-300,0\n");
   CHECK_THAT(grains_xyz(exported), Catch::Contains("Lattice=\"40 0 0 0 11 0 0 0 3.5\"") &&
+                                       Catch::Contains(" length_unit=mm\n") &&
                                        Catch::Contains("\nX 38.5 10 3 2 2 0.5 0 1e-300\n"));
   CHECK(array_of(grains_vtp(exported), "radius") == std::vector<double>{1.0, 0.5});
+  const std::string head = "<?xml version=\"1.0\"?>\n<!-- grainsweep, lengths in ";
+  CHECK_THAT(grains_vtp(exported), Catch::StartsWith(head + "mm -->\n<VTKFile "));
+  CHECK_THAT(grains_vtp(exported_bed()), Catch::StartsWith(head + "d -->\n<VTKFile "));
   ExportedBed turned = exported_turned_bed();
   const std::vector<double> in_d = array_of(grains_vtp(turned), "Points");
   turned.settings.lengths = exported.settings.lengths;
+  CHECK_THAT(grains_vtp(turned), Catch::StartsWith(head + "mm -->\n"));
   const std::vector<double> in_mm = array_of(grains_vtp(turned), "Points");
   REQUIRE(in_mm.size() == in_d.size());
   for (std::size_t k = 0; k < in_d.size(); ++k) CHECK(in_mm[k] == 2.0 * in_d[k]);
@@ -73,7 +78,7 @@ TEST_CASE("extended XYZ holds count, box, periodic axes and a line per grain") {
         "2\n"
         "Lattice=\"20 0 0 0 5.5 0 0 0 1.75\" "
         "Properties=species:S:1:pos:R:3:id:I:1:size_class:I:1:radius:R:1:coordination:I:1:"
-        "force:R:1 pbc=\"T F F\"\n"
+        "force:R:1 pbc=\"T F F\" length_unit=d\n"
         "X 0.1 0.3333333333333333 0.5 1 1 0.5 6 2.75\n"
         "X 19.25 5 1.5 2 2 0.25 0 1e-300\n");
 }
