@@ -57,6 +57,26 @@ std::uint64_t hash_of(PlacedGrains placed) {
          fnv1a(bytes_of(placed.components));
 }
 
+/// The sizes of two classes that hold the small grains of a file: `{"small_share": 0.3,
+/// "size_ratio": 0.6}`.
+std::string classes_text(const GrainsReading& reading, double diameter) {
+  double small = 0.0, all = 0.0, sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < reading.grains.size(); ++k) {
+    const double radius = reading.grains[k].radius, volume = std::pow(radius, 3);
+    all += volume;
+    if (!reading.are_small[k]) continue;
+    small += volume;
+    sum += 2.0 * radius;
+    count += 1.0;
+  }
+  const auto rounded = [](double value) {
+    constexpr double unit = 1e-3;
+    return bound_text(std::max(1.0, std::round(value / unit)) / 1e3);
+  };
+  return R"({"small_share": )" + rounded(small / all) + R"(, "size_ratio": )" +
+         rounded(sum / count / diameter) + "}";
+}
+
 /// Whether these are diameters of a distribution that somebody chose: defaults are in d.
 bool is_chosen_diameter(const Assignment* assignment) {
   if (assignment == nullptr) return false;
@@ -83,7 +103,7 @@ std::vector<GivenStart> GivenFiles::starts(const Block& block, const InEffect& i
                       files != nullptr ? "the files are" : "the file is");
   }
   if (files != nullptr) return starts_in_list(block, *files, resolved);
-  GivenStart start = start_in(resolved.fill_file, *file, resolved.fill_diameter);
+  GivenStart start = start_in(resolved.fill_file, *file, resolved);
   resolved.fill_content = start.content;
   if (block.replicates.most > 1 && !start.content.empty()) {
     said_.problem(*file,
@@ -101,7 +121,7 @@ std::vector<GivenStart> GivenFiles::starts_in_list(const Block& block, const Ass
   for (const std::string& file : resolved.fill_files) {
     const Assignment entry{files.parameter, file,
                            files.pointer + "/" + std::to_string(starts.size())};
-    starts.push_back(start_in(file, entry, resolved.fill_diameter));
+    starts.push_back(start_in(file, entry, resolved));
     starts.back().pointer = entry.pointer;
     const auto* placed = std::get_if<PlacedGrains>(&starts.back().fill);
     if (placed == nullptr) continue;
@@ -120,7 +140,7 @@ std::vector<GivenStart> GivenFiles::starts_in_list(const Block& block, const Ass
 }
 
 GivenStart GivenFiles::start_in(const std::string& file, const Assignment& assignment,
-                                double diameter) {
+                                const ResolvedSpec& resolved) {
   GivenStart start{SolidHeight{}, file, "", ""};
   const GrainsReading& reading = reading_of(file, assignment, read_grains, grains_);
   if (!reading.errors.empty()) return start;
@@ -130,8 +150,9 @@ GivenStart GivenFiles::start_in(const std::string& file, const Assignment& assig
                                   " grains from files together; split the sweep");
     return start;
   }
-  start.fill = PlacedGrains{scaled_grains(reading.grains, diameter), reading.orientations,
-                            reading.components};
+  start.fill = PlacedGrains{scaled_grains(reading.grains, resolved.fill_diameter),
+                            reading.orientations, reading.components};
+  note_classes(assignment, reading, resolved);
   start.content = reading.content;
   return start;
 }
@@ -243,6 +264,18 @@ void GivenFiles::place_sizes(const InEffect& in_effect, ResolvedSpec& resolved) 
     note_other_d(size->pointer, resolved.size_unit, "the diameters are", "others");
   }
   to_units_of(resolved.size_unit, *distribution);
+}
+
+void GivenFiles::note_classes(const Assignment& assignment, const GrainsReading& reading,
+                              const ResolvedSpec& resolved) {
+  const auto& small = reading.are_small;
+  if (resolved.spec.sizes.small_share > 0.0 || resolved.has_size_formula) return;
+  if (std::find(small.begin(), small.end(), true) == small.end()) return;
+  said_.remark(
+      assignment.pointer, "classes",
+      "calls grains small in its column size_class that count as large, as sizes.small_share is "
+      "0; to tell them apart write \"sizes\": " +
+          classes_text(reading, resolved.fill_diameter));
 }
 
 void GivenFiles::note_hull(const Assignment& file, const VerticesReading& reading) {

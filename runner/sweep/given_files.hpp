@@ -60,7 +60,8 @@ class GivenFiles {
  private:
   std::vector<GivenStart> starts_in_list(const Block& block, const Assignment& files,
                                          const ResolvedSpec& resolved);
-  GivenStart start_in(const std::string& file, const Assignment& assignment, double diameter);
+  GivenStart start_in(const std::string& file, const Assignment& assignment,
+                      const ResolvedSpec& resolved);
 
   /// The vertices of a hull.
   void place_vertices(const Block& block, const InEffect& in_effect, ResolvedSpec& resolved);
@@ -72,6 +73,9 @@ class GivenFiles {
   /// reported and removed, so that the other rules can be checked.
   void place_sizes(const InEffect& in_effect, ResolvedSpec& resolved);
 
+  /// Notes classes of a file that get lost, as the sweep says nothing of small grains.
+  void note_classes(const Assignment& assignment, const GrainsReading& reading,
+                    const ResolvedSpec& resolved);
   void note_hull(const Assignment& file, const VerticesReading& reading);
   /// Notes once that diameters are in d: curves of sieves are in the unit that a laboratory uses.
   void note_unit_of(const InEffect& in_effect);

@@ -18,12 +18,12 @@ constexpr std::array<std::string_view, 8> column_names = {"x",  "y",  "z",  "r",
                                                           "qx", "qy", "qz", "qw"};
 constexpr std::size_t needed = 4;  ///< the others are there all or not at all
 
-constexpr std::string_view component_name = "component";
+constexpr std::string_view component_name = "component", size_class_name = "size_class";
 
 /// Where the columns are.
 struct Columns {
-  std::vector<std::size_t> numbers;      ///< of column_names, or of the needed ones only
-  std::optional<std::size_t> component;  ///< if there is one
+  std::vector<std::size_t> numbers;  ///< of column_names, or of the needed ones only
+  std::optional<std::size_t> component, size_class;  ///< if there is one
 };
 
 bool is_orientation(std::string_view name) { return name.front() == 'q'; }
@@ -39,6 +39,13 @@ std::string header_error(std::string_view name, const LineCells& header) {
 
 bool holds(const LineCells& header, std::string_view name) {
   return std::find(header.begin(), header.end(), name) != header.end();
+}
+
+/// Where a column is that files need not have.
+std::optional<std::size_t> place_of(std::string_view name, const LineCells& header) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header.begin());
 }
 
 /// The columns that `header` names, or what is wrong with it.
@@ -57,10 +64,8 @@ std::optional<Columns> columns_of(const LineCells& header, std::string& error) {
     const auto found = std::find_if(header.begin(), header.end(), matches);
     columns.numbers.push_back(static_cast<std::size_t>(found - header.begin()));
   }
-  const auto component = std::find(header.begin(), header.end(), component_name);
-  if (component != header.end()) {
-    columns.component = static_cast<std::size_t>(component - header.begin());
-  }
+  columns.component = place_of(component_name, header);
+  columns.size_class = place_of(size_class_name, header);
   return columns;
 }
 
@@ -92,6 +97,7 @@ std::string read_grain(const LineCells& cells, const Columns& columns, std::size
   reading.grains.push_back({v[0], v[1], v[2], v[3]});
   if (columns.numbers.size() > needed) reading.orientations.push_back({v[4], v[5], v[6], v[7]});
   if (columns.component) reading.components.push_back(component_in(cells[*columns.component]));
+  if (columns.size_class) reading.are_small.push_back(cells[*columns.size_class] == "small");
   return "";
 }
 

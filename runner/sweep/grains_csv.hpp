@@ -1,8 +1,9 @@
 // Grains from a CSV file, from which a bed can start.
 //
 // The first line names the columns; x, y, z and r (or radius) must be among them, for non-spherical
-// grains also qx, qy, qz and qw, and for those of a mixture the column component. Others are
-// ignored: a bed written by `export` can be packed again. One grain per line, decimal points.
+// grains also qx, qy, qz and qw, and for those of a mixture the column component. What size_class
+// says is noted, but what is small follows from the sweep. Other columns are ignored: a bed written
+// by `export` can be packed again. One grain per line, decimal points.
 #pragma once
 
 #include <array>
@@ -25,6 +26,8 @@ struct GrainsReading {
   /// Components as in PlacedGrains, no_component where a cell holds no component's number; empty if
   /// the file has no column for them.
   std::vector<std::uint8_t> components;
+  /// Which grains the column size_class calls small; empty if the file has none.
+  std::vector<bool> are_small;
   std::string content;             ///< hash of the file's bytes, 16 hex digits
   std::vector<Diagnostic> errors;  ///< with places "bed.csv:12"; at most 20 of a file
 };

@@ -72,6 +72,14 @@ TEST_CASE("components are read from 1 where the first line names their column") 
   CHECK(parse_grains("x,y,z,r\n1,2,3,4\n", "f").components.empty());
 }
 
+TEST_CASE("which grains are small is read where the first line names the column of classes") {
+  const GrainsReading reading =
+      parse_grains("size_class,x,y,z,r\nlarge,1,2,3,1\nsmall,1,2,4,1\n2,1,2,5,1\n,1,2,6,1\n", "f");
+  REQUIRE(reading.errors.empty());
+  CHECK(reading.are_small == std::vector<bool>{false, true, false, false});
+  CHECK(parse_grains("x,y,z,r\n1,2,3,4\n", "f").are_small.empty());
+}
+
 TEST_CASE("line ends of other systems, quotes and a byte order mark change no grain") {
   const GrainsReading reading =
       parse_grains("\xEF\xBB\xBF\"x\",\"y\",\"z\",\"r\"\r\n1,\"2\",3,0.5\r\n\r\n", "f");
@@ -284,6 +292,30 @@ TEST_CASE("the diameter in a file of starts holds for every file that blocks nam
              Catch::Contains(R"("fill":{"diameter":1.5,)"));
   CHECK_THAT(parameters_of(R"({"set": {"fill.grains": 9000}}, {"set": {"fill.file": "a.csv"}})"),
              !Catch::Contains("diameter"));
+}
+
+TEST_CASE("small grains of a file that count as large are worth a note, with what to write") {
+  const ScratchFolder folder;
+  folder.write("two.csv", "size_class,x,y,z,r\nlarge,2,2,2,1\nsmall,5,2,2,0.5\nsmall,5,5,2,0.5\n");
+  folder.write("one.csv", "size_class,x,y,z,r\nlarge,2,2,2,1\nlarge,5,2,2,0.5\n");
+  const auto said = [&](const std::string& fill, const std::string& sizes) {
+    const SweepReading reading =
+        read_sweep(folder.write("s.json", R"({"name": "t", "base": {"fill": {"diameter": 2, )" +
+                                              fill + "}" + sizes + "}}"));
+    CHECK(reading.errors.empty());
+    Messages notes;
+    for (const Diagnostic& note : reading.notes) notes.push_back(note.pointer + " " + note.message);
+    return notes;
+  };
+  const std::string note =
+      " calls grains small in its column size_class that count as large, as sizes.small_share is "
+      "0; "
+      "to tell them apart write \"sizes\": {\"small_share\": 0.2, \"size_ratio\": 0.5}";
+  CHECK(said(R"("file": "two.csv")", "") == Messages{"/base/fill/file" + note});
+  CHECK(said(R"("files": ["one.csv", "two.csv"])", "") == Messages{"/base/fill/files/1" + note});
+  CHECK(said(R"("file": "two.csv")", R"(, "sizes": {"small_share": 0.2, "size_ratio": 0.5})")
+            .empty());
+  CHECK(said(R"("file": "one.csv")", "").empty());
 }
 
 TEST_CASE("a diameter in a file of starts that is not the d of the units is worth a note") {
