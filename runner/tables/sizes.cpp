@@ -49,7 +49,9 @@ std::vector<SizeLine> mean_sizes(const Group& group) {
 }
 
 bool has_size_distribution(const JobFacts& job) {
-  return job.parameters.text().find("\"distribution\":") != std::string::npos;
+  if (job.parameters.text().find("\"distribution\":") == std::string::npos) return false;
+  const auto parameters = identifying_parameters(job);
+  return !parameters.contains("fill.file") && !parameters.contains("fill.files");
 }
 
 std::string size_weight(const JobFacts& job) {

@@ -21,7 +21,8 @@ struct SizeLine {
 /// distribution.
 std::vector<SizeLine> mean_sizes(const Group& group);
 
-/// Whether the sizes of its grains are a distribution.
+/// Whether the sizes of its grains are drawn from a distribution. Those of a file are not, whatever
+/// distribution stands beside it.
 bool has_size_distribution(const JobFacts& job);
 
 /// What the shares of its distribution are shares of: "volume", "area" or "number".

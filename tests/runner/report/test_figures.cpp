@@ -609,6 +609,20 @@ TEST_CASE("sizes asked for and packed are drawn over the diameter, steps as step
   CHECK_THAT(grading.caption, Catch::Contains("sizes.csv"));
 }
 
+TEST_CASE("grains of a file have no grading, and no figure of it", "[report]") {
+  std::vector<Row> rows = {graded_row("drawn", {{0.5, 0.25, 0.26, 0.125}, {2, 1, 1, 1}}),
+                           graded_row("again", {})};
+  rows[1].job.parameters = R"({"box":{"width":5},"fill":{"file":"0a"},)"
+                           R"("sizes":{"distribution":{"by":"volume"}}})";
+  const auto has_figure = [](const std::vector<Row>& some) {
+    const std::vector<Figure> figures = figures_of(some, analyse(some), {});
+    return std::any_of(figures.begin(), figures.end(),
+                       [](const Figure& figure) { return figure.name == "grading"; });
+  };
+  CHECK_FALSE(has_figure({rows[1]}));
+  CHECK(has_figure(rows));
+}
+
 TEST_CASE("diameters that span more than a decade lie on a logarithmic axis", "[report]") {
   const std::vector<Row> rows = {graded_row("wide", {{0.125, 0, 0, 0}, {2, 1, 1, 1}})};
   const std::vector<Figure> figures = figures_of(rows, analyse(rows), {});

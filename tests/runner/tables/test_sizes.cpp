@@ -60,6 +60,17 @@ TEST_CASE("the weight of a distribution is told by its parameters") {
   CHECK(size_weight(job) == "number");
 }
 
+TEST_CASE("grains of a file have the sizes that stand there, not those of a distribution") {
+  JobFacts job = sample_job("a", 5);
+  const std::string sizes = R"("sizes":{"distribution":{"table":{"file":"0b"}}}})";
+  job.parameters = R"({"fill":{"file":"0a"},)" + sizes;
+  CHECK_FALSE(has_size_distribution(job));
+  job.parameters = R"({"fill":{"files":["0a","0b"]},)" + sizes;
+  CHECK_FALSE(has_size_distribution(job));
+  job.parameters = R"({"fill":{"grains":500},)" + sizes;
+  CHECK(has_size_distribution(job));
+}
+
 TEST_CASE("diameters have no noise of the division by the length that is d") {
   const std::vector<Row> rows = {row_with_sizes("a", {{22.4 / 20.0, 1, 1, 1}})};
   CHECK_THAT(sizes_csv(analyse(rows).groups), Catch::Contains(",1.12,1,1,"));
