@@ -27,15 +27,25 @@ namespace {
 
 /// The interval over what the request leaves for it; at most 1 if the request is met, and infinite
 /// if the bias leaves nothing.
-double over_wish(const Spread& spread, double wish, double bias) {
+double over_wish(double interval, double wish, double bias) {
   if (wish == 0.0) return 0.0;
-  return wish > bias ? half_interval(spread.sd, spread.n) / (wish - bias) : infinity;
+  return wish > bias ? interval / (wish - bias) : infinity;
+}
+
+/// Half of the 95 % interval of the mean solid fraction; see error_of_layers.
+double interval_of_phi(const Means& means) {
+  const Spread& phi = means.solid_fraction;
+  const double of_layers = means.are_of_one_state()
+                               ? normal_quantile * error_of_layers(phi.mean, means.slab_height.mean)
+                               : 0.0;
+  return std::hypot(half_interval(phi.sd, phi.n), of_layers);
 }
 double over_wishes(const Means& means, const ErrorWish& wish,
                    const std::optional<ProtocolBias>& bound) {
   const ProtocolBias bias = bound.value_or(ProtocolBias());
-  return std::max(over_wish(means.solid_fraction, wish.solid_fraction, bias.solid_fraction),
-                  over_wish(means.coordination, wish.coordination, bias.coordination));
+  const double interval_of_z = half_interval(means.coordination.sd, means.coordination.n);
+  return std::max(over_wish(interval_of_phi(means), wish.solid_fraction, bias.solid_fraction),
+                  over_wish(interval_of_z, wish.coordination, bias.coordination));
 }
 
 std::vector<const Outcome*> made_of(const Sweep& sweep, const Places& group,
@@ -311,7 +321,10 @@ std::string counts_text(const Grown& grown, const char* noun) {
         "in fits.csv are wider, and no packings mend it";
   }
   if (!grown.without_errors.empty()) {
-    text += in(grown.without_errors) + " the packings do not scatter, and tell no error";
+    text +=
+        in(grown.without_errors) +
+        " the packings do not scatter, and tell no error: no more of them help, but higher beds "
+        "may";
   }
   if (!grown.seldom_settled.empty()) {
     text += "; " + std::to_string(grown.seldom_settled.size()) +
@@ -342,6 +355,8 @@ void add_group(const Sweep& whole, const Places& group, const Outcomes& outcomes
   const Means means = means_of(made, count);
   if (over_wishes(means, first.wish, bound) <= 1.0) {
     ++grown.met;
+  } else if (means.are_of_one_state()) {
+    grown.without_errors.push_back(&first);
   } else if (settle_too_seldom(means.solid_fraction.n, count)) {
     grown.seldom_settled.push_back(&first);
   } else {
@@ -383,7 +398,8 @@ int replicates_called_for(const std::vector<const Outcome*>& made, const ErrorWi
   while (are_made(made, count)) {
     const Means means = means_of(made, count);
     const double over = over_wishes(means, wish, bound);
-    if (over <= 1.0 || count == most || settle_too_seldom(means.solid_fraction.n, count)) {
+    const bool is_enough = over <= 1.0 || means.are_of_one_state();  // more would be the same
+    if (is_enough || count == most || settle_too_seldom(means.solid_fraction.n, count)) {
       return count;
     }
     const double next = std::min(std::ceil(count * over * over), 2.0 * count);

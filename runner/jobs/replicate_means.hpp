@@ -16,10 +16,14 @@ constexpr bool settle_too_seldom(int settled, int packings) { return 6 * settled
 /// infinite for less than two values.
 double half_interval(double sd, int n);
 
-/// Solid fractions and coordination numbers, and the height of the slab that they are means over,
-/// d.
+/// Solid fractions and coordination numbers, the height of the slab that they are means over, d,
+/// and numbers of grains.
 struct Means {
-  Spread solid_fraction, coordination, slab_height;
+  Spread solid_fraction, coordination, slab_height, grains;
+
+  bool are_of_one_state() const {
+    return are_in_one_state(solid_fraction, coordination, grains.mean);
+  }
 };
 
 /// Those of the settled packings among the first `count`, all of which are made.

@@ -181,13 +181,13 @@ bool scatters(const Spread& spread, double by) {
   return by > rounding_of_sums * std::abs(spread.mean);
 }
 
-/// Whether replicates are all in the one state that is possible, as single files: no two disordered
-/// packings have the same solid fraction to 1e-5. Their coordination numbers alone do not tell it,
-/// as multiples of one over the number of grains may be the same by chance; nor are they copies.
 bool are_in_one_state(const Group& group) {
-  constexpr double same = 1e-5;
-  const Spread& phi = mean_of(group, "solid_fraction");
-  return scatters(phi, phi.sd) && phi.sd < same * phi.mean;
+  return are_in_one_state(mean_of(group, "solid_fraction"), mean_of(group, "coordination"),
+                          mean_of(group, "grains").mean);
+}
+
+double mean_slab_height(const Group& group) {
+  return group.slab_volume / group.job.box.floor_area();
 }
 
 /// Gives a mean that is the same in all replicates the error of its rounding.
@@ -211,6 +211,12 @@ void moderate_errors(std::vector<Group>& groups) {
           means.push_back({&spread, group->slab_volume});
       }
       moderate_errors(means);
+      if (mean_fields()[k].name != "solid_fraction") continue;
+      for (Group* group : family) {
+        if (!are_in_one_state(*group)) continue;
+        Spread& phi = group->means[k];
+        phi.error = std::hypot(phi.error, error_of_layers(phi.mean, mean_slab_height(*group)));
+      }
     }
   }
 }
@@ -330,6 +336,17 @@ void moderate_errors(const std::vector<SlabMean>& means) {
     if (spread->degrees_of_freedom == 0.0) continue;
     spread->error = error_of_mean(all[k].variance / volume, spread->n, spread->degrees_of_freedom);
   }
+}
+
+bool are_in_one_state(const Spread& phi, const Spread& z, double grains) {
+  constexpr double same = 1e-5, next_to_none = 1e-3;
+  if (!scatters(phi, phi.sd)) return false;
+  const bool have_one_z = !scatters(z, z.sd);
+  return phi.sd < same * phi.mean || (have_one_z && phi.sd * std::sqrt(grains) < next_to_none);
+}
+
+double error_of_layers(double solid_fraction, double slab_height) {
+  return solid_fraction / (9.0 * slab_height);
 }
 
 double slab_height(const PackingResult& result) { return result.slab_top - result.slab_bottom; }

@@ -33,6 +33,18 @@ struct Spread {
 /// Spread.
 double error_of_mean(double variance, int n, double degrees_of_freedom);
 
+/// Whether replicates, of which n scatter like this, are all in the one state that is possible, as
+/// single files: no two disordered packings have the same solid fraction to 1e-5, nor the same
+/// coordination number and next to the same solid fraction, which scatters by 0.05 over the root of
+/// the number of grains. Their coordination numbers alone do not tell it, as multiples of one over
+/// the number of grains may be the same by chance; nor are they copies, which scatter by rounding.
+bool are_in_one_state(const Spread& phi, const Spread& z, double grains);
+
+/// Error of the solid fraction of packings in one state, which do not show it by their scatter: of
+/// where a slab so high, d, cuts their layers. In a pile of spheres the solid below a plane is that
+/// of the mean to 1 / (6 sqrt(3)) of a layer's; both ends may add up, and that is sqrt(3) errors.
+double error_of_layers(double solid_fraction, double slab_height);
+
 /// Height of the measured slab, d.
 double slab_height(const PackingResult& result);
 

@@ -249,7 +249,8 @@ TEST_CASE("the end of a run names the fits whose errors are larger, and those th
   for (auto& [id, outcome] : outcomes) outcome->result.solid_fraction = 0.6;
   CHECK(wishes_text(whole, outcomes) ==
         "Errors as asked for (95 %) in 0 of 2 fits, by 48 packings; in 2 the packings do not "
-        "scatter, and tell no error\nNo scatter: coarse; fine\n");
+        "scatter, and tell no error: no more of them help, but higher beds may\nNo scatter: "
+        "coarse; fine\n");
 }
 
 TEST_CASE("a fit waits for all of its round, whatever else is made") {
@@ -359,6 +360,26 @@ TEST_CASE("a wish that the bias of settling leaves nothing of is never met") {
   CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.001, 0.0}) == first_replicates);
   CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.002, 0.0}) == 8);
   CHECK(replicates_called_for(made, {0.002, 0.0}, ProtocolBias{0.003, 0.0}) == 8);
+}
+
+TEST_CASE("packings of one state are met only within the error that their layers make") {
+  std::vector<Outcome> files;
+  for (int k = 0; k < 12; ++k) {
+    files.push_back(sample_outcome("a", 0.45 + (k % 2 == 0 ? 1e-6 : 0.0), 2.0));
+    files.back().result.grains = 100;
+    files.back().result.slab_bottom = 3.0, files.back().result.slab_top = 8.0;
+  }
+  CHECK(replicates_called_for(pointers(files, 12), {0.003, 0.0}, {}) == first_replicates);
+  const auto told = [&](double wish) {
+    const Sweep whole{"s", 7, 1, growing_group("a", 1.3, 12, {wish, 0.0})};
+    Outcomes outcomes;
+    for (std::size_t k = 0; k < whole.jobs.size(); ++k) {
+      outcomes[whole.jobs[k].id] = Boxed<Outcome>(files[k]);
+    }
+    return wishes_text(whole, outcomes);
+  };
+  CHECK_THAT(told(0.003), Catch::Contains("in 0 of 1 group") && Catch::Contains("No scatter: "));
+  CHECK_THAT(told(0.03), Catch::Contains("in 1 of 1 group"));  // 1.96 times 0.01, and the bias
 }
 
 TEST_CASE("wishes that no bound of settling is known for are noted, once where they are written") {

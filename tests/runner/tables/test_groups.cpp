@@ -204,6 +204,25 @@ TEST_CASE("coordination numbers that are the same are exact only in ordered pack
   CHECK(mean_of(groups[1], "coordination").error > 0.01);
 }
 
+TEST_CASE("packings of one state have the error of where the slab cuts their layers") {
+  const auto error_of = [](double scatter, double scatter_of_z) {
+    std::vector<Row> rows;
+    for (const int sign : {-1, 1}) {
+      rows.push_back(
+          settled_row(std::to_string(sign), 1.3, 0.45 + sign * scatter, 2.0 + sign * scatter_of_z));
+      PackingResult& result = rows.back().outcome->result;
+      result.grains = 100;
+      result.slab_bottom = 3.0, result.slab_top = 8.0;
+    }
+    return mean_of(groups_of(rows).at(0), "solid_fraction").error;
+  };
+  CHECK(error_of(1e-6, 0.0) == Approx(0.45 / (9.0 * 5.0)).epsilon(1e-6));
+  const double disordered = error_of(2e-5, 0.01);
+  CHECK(disordered < 1e-3);
+  CHECK(error_of(2e-5, 0.0) == Approx(std::hypot(disordered, 0.01)));
+  CHECK(error_of(0.0, 0.0) == 0.0);  // copies
+}
+
 TEST_CASE("jobs of square ducts and of others are of the same families as their groups") {
   std::vector<Row> rows;
   for (const double width : {4.0, 5.0}) {
