@@ -212,6 +212,24 @@ std::string write_bed(const Writing& writing, const Row& row, const std::string&
   }
 }
 
+/// What was not written, or is not at rest.
+void tell_what_lacks(const Written& written, std::size_t without_grains,
+                     const std::string& remedy) {
+  if (written.unsettled > 0) {
+    std::cout << written.unsettled
+              << " of them did not settle or failed: see the column status there\n";
+  }
+  if (!written.refused.empty()) {
+    std::cout << counted(written.refused.size(), "packing")
+              << " left out: " << written.refused.front()
+              << (written.refused.size() > 1 ? ", and others" : "") << "\n";
+  }
+  if (without_grains > 0) {
+    std::cout << counted(without_grains, "packing") << " left out: stored without grains; "
+              << remedy << "\n";
+  }
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, ExportOptions& options) {
@@ -312,19 +330,7 @@ int perform(const ExportOptions& options) {
     std::cout << "Lengths in them are in " << (options.in_units ? "" : d) << printed_unit(*units)
               << "\n";
   }
-  if (written.unsettled > 0) {
-    std::cout << written.unsettled
-              << " of them did not settle or failed: see the column status there\n";
-  }
-  if (!written.refused.empty()) {
-    std::cout << counted(written.refused.size(), "packing")
-              << " left out: " << written.refused.front()
-              << (written.refused.size() > 1 ? ", and others" : "") << "\n";
-  }
-  if (without_grains > 0) {
-    std::cout << counted(without_grains, "packing") << " left out: stored without grains; "
-              << remedy << "\n";
-  }
+  tell_what_lacks(written, without_grains, remedy);
   if (!written.faults.empty()) return exit_file_system;
   return written.refused.empty() || options.jobs.empty() ? exit_done : exit_bad_input;
 }
