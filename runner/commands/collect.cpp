@@ -118,11 +118,16 @@ bool has_given_start(const JobFacts& job) {
   return job.files.contains("fill.file") || job.files.contains("fill.files");
 }
 
-/// Notes the bed of a given start; false if one that is alike is known: with another seed it is no
-/// other packing.
-bool note_start(const Row& row, const Outcome& outcome, Collection& to) {
-  if (!has_given_start(row.job) || outcome.exception) return true;
-  return to.of_starts.emplace(row.job.parameters.text(), outcome.result.state_hash).second;
+/// Whether a bed that is kept has the given start of this one, and came out alike: with another
+/// seed it is no other packing.
+bool is_kept_start(const Row& row, const Outcome& outcome, const Collection& to) {
+  return has_given_start(row.job) && !outcome.exception &&
+         to.of_starts.contains({row.job.parameters.text(), outcome.result.state_hash});
+}
+/// Notes the bed of a given start, if it is kept.
+void note_start(const Row& row, Collection& to) {
+  if (!has_given_start(row.job) || !is_made(row)) return;
+  to.of_starts.emplace(row.job.parameters.text(), row.outcome->result.state_hash);
 }
 
 void add_runs(const std::vector<RunRecord>& from, Collection& to) {
@@ -264,8 +269,7 @@ Collection begin_collection(const std::string& folder, ShardFiles& files, Progre
     tell_files_apart(collection.rows[i].job, collection);
     collection.row_of[collection.rows[i].job.id] = i;
     collection.row_with.try_emplace(collection.rows[i].job.parameters.text(), i);
-    const Row& row = collection.rows[i];
-    if (row.outcome) note_start(row, *row.outcome, collection);
+    note_start(collection.rows[i], collection);
   }
   collection.provenance.build = this_build();
   return collection;
@@ -289,13 +293,15 @@ void add_results(const std::string& folder, StoredSweep&& stored, Collection& to
     }
     auto outcome = stored.outcomes.extract(job.id);
     if (!outcome) continue;
-    if (!is_made(row) && !note_start(row, *outcome.mapped(), to) && rows_before < to.rows.size()) {
+    const bool is_new = rows_before < to.rows.size();
+    if (is_new && is_kept_start(row, *outcome.mapped(), to)) {
       to.row_of.erase(job.id);
       to.rows.pop_back();
       ++copies;
       continue;
     }
     add_outcome(folder, std::move(outcome.mapped()), row, to);
+    note_start(row, to);
     tell(1.0 - static_cast<double>(stored.outcomes.size()) / all);
   }
   add_others(folder, std::move(stored.outcomes), to);

@@ -246,6 +246,24 @@ TEST_CASE("a given start that is packed with another seed is the same bed, and i
   }
 }
 
+TEST_CASE("a given start whose bed cannot be read is collected from where it can be") {
+  const TemporaryFolder parent;
+  const std::map<std::string, std::string> start = {{"fill.files", "a.csv"}};
+  Outcome lost = sample_outcome("a1", 0.6, 6);
+  const std::string first = folder_of_a_run(parent, "1", "1", lost, {}, "MSP", start);
+  store_with_bed(first, lost);
+  damage_bed(first, lost, 30);
+  const std::string same =
+      folder_of_a_run(parent, "2", "2", sample_outcome("a2", 0.6, 6), {}, "MSP", start);
+  const std::string out = parent.path() + "/all";
+  const Printed printed = printed_by([&] { perform(CollectOptions{{first, same}, out}); });
+  CHECK_THAT(printed.error, !Contains("is kept once"));
+  const Results all = read_results(out);
+  REQUIRE(all.rows.size() == 2);
+  CHECK_FALSE(is_made(all.rows[0]));
+  CHECK(is_made(all.rows[1]));
+}
+
 // A host gives the number of a process again.
 TEST_CASE("runs of one process name that began at different times are different runs") {
   const TemporaryFolder parent;
