@@ -567,6 +567,18 @@ double extent_in_tube(const PackingSpec& spec, const ShapeExtent& shape) {
   return (1.0 - scatter) * largest;
 }
 
+/// A tube of grains that turn, of that extent, d.
+void check_tube(double diameter, double extent, Errors& errors) {
+  const double narrowest = narrowest_tube * extent;
+  const bool is_too_narrow = diameter < narrowest;  // what is no number is told of elsewhere
+  if (!is_too_narrow) return;
+  errors.push_back({"tube.diameter",
+                    "must be at least " + least_text(narrowest) + " (" +
+                        bound_text(narrowest_tube) + " times the extent of these grains), is " +
+                        bound_text(diameter),
+                    diameter > 0.0 ? narrowest / diameter : 0.0});
+}
+
 void check_measure(const MeasureSpec& measure, Errors& errors) {
   require_in({0.0, 1000.0}, measure.exclude_floor, "measure.exclude_floor", errors);
   require_in({0.0, 1000.0}, measure.exclude_surface, "measure.exclude_surface", errors);
@@ -682,14 +694,8 @@ std::vector<SpecError> check(const PackingSpec& spec) {
   const double largest = shape && sizes ? largest_grain(spec, *shape) : across;
   const bool has_room = check_room(spec, across, largest, errors);
   const bool box = has_room && check_box(spec.box, largest, errors);
-  const double narrowest =
-      narrowest_tube * (shape && sizes ? extent_in_tube(spec, *shape) : across);
-  if (has_room && spec.box.is_tube && !is_sphere(spec.shape) && spec.box.length < narrowest) {
-    errors.push_back({"tube.diameter",
-                      "must be at least " + least_text(narrowest) + " (" +
-                          bound_text(narrowest_tube) + " times the extent of these grains), is " +
-                          bound_text(spec.box.length),
-                      spec.box.length > 0.0 ? narrowest / spec.box.length : 0.0});
+  if (has_room && spec.box.is_tube && !is_sphere(spec.shape)) {
+    check_tube(spec.box.length, shape && sizes ? extent_in_tube(spec, *shape) : across, errors);
   }
   check_fill(spec, shape, shape && sizes && box, errors);
   check_accuracy(spec.accuracy, errors);
